@@ -1,0 +1,10 @@
+find_package(PkgConfig REQUIRED)
+find_package(OpenEXR REQUIRED CONFIG)
+find_package(TBB REQUIRED CONFIG)
+find_package(fmt REQUIRED CONFIG)
+find_package(nlohmann_json REQUIRED CONFIG)
+find_package(hwy QUIET CONFIG)
+# Debian ships no CMake package for these.
+pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO)
+pkg_check_modules(libdeflate REQUIRED IMPORTED_TARGET libdeflate)
+pkg_check_modules(libhwy REQUIRED IMPORTED_TARGET libhwy)

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// What went wrong, where, and what to do.  Everything that can fail throws Failure; where several faults
+// can be told in one run (a graph file), they are collected in Diagnostics instead.
+
+namespace keyline {
+
+// Who must act decides the exit status of the program (GRAPH: "Exit status").
+enum class ErrorKind {
+    kGraph,      // the graph or the command line is wrong: 2
+    kInput,      // an input is missing, unreadable or damaged: 3
+    kOutput,     // an output can't be written: 4
+    kFailed,     // a frame failed for another reason: 1
+    kInternal,   // a promise of Keyline's own code was broken: 1, and said to be so
+    kCancelled,  // stopped on request; not an error to report
+};
+
+// A place in a graph file, or the command-line option that a value came from.
+struct Place {
+    std::string file;  // as typed by the user; or an option as typed, `--set smooth.sigma=-3`
+    int line = 0;      // from 1; 0 where there is none
+    int column = 0;    // from 1, in code points
+
+    std::string text() const;  // "FILE:LINE:COLUMN", or just "FILE" without a line
+    friend bool operator==(const Place&, const Place&) = default;
+};
+
+struct Error {
+    ErrorKind kind = ErrorKind::kFailed;
+    Place place;       // empty where the fault lies in no graph file
+    std::string node;  // "node 'edges' (hysteresis)", "node 'a' (read), frame 7"; empty where there is none
+    std::string what;  // values always; ends without a full stop
+    std::string hint;  // what to do, or "did you mean 'sigma'?"; may be empty
+
+    // "PLACE: error: NODE: WHAT; HINT", leaving out what is empty.
+    std::string text() const;
+};
+
+class Failure : public std::exception {
+public:
+    explicit Failure(Error error) : error_(std::move(error)), text_(error_.text()) {}
+    const Error& error() const { return error_; }
+    const char* what() const noexcept override { return text_.c_str(); }
+
+private:
+    Error error_;
+    std::string text_;
+};
+
+// Throws Failure{kind, what, hint}.  Layers that know more (the node, the frame) catch and complete it.
+[[noreturn]] void fail(ErrorKind kind, std::string what, std::string hint = {});
+
+// Faults and warnings in the order found.
+class Diagnostics {
+public:
+    void error(Error e) { errors_.push_back(std::move(e)); }
+    void warning(Error w) { warnings_.push_back(std::move(w)); }
+
+    bool ok() const { return errors_.empty(); }
+    const std::vector<Error>& errors() const { return errors_; }
+    const std::vector<Error>& warnings() const { return warnings_; }
+
+private:
+    std::vector<Error> errors_, warnings_;
+};
+
+// 0 for none; a graph error outranks an input error, which outranks the rest.
+int exit_status(ErrorKind kind);
+
+// For messages: in quotes, cut to 60 characters, control characters escaped.
+std::string in_quotes(std::string_view text);
+
+// "did you mean 'sigma'?" when a candidate is near, else "".
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
+// "'a', 'b' and 'c'"
+std::string listed(const std::vector<std::string>& words);
+
+}  // namespace keyline

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/image.h"
+#include "engine/io/image_source.h"
+#include "engine/metadata.h"
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace keyline {
+
+// What a sample of an output is stored as.
+enum class Depth : uint8_t { kAuto, kHalf, kFloat, kUint8, kUint16 };
+
+struct SinkSpec {
+    Rect display_window;
+    Rect data_window;                   // of the picture; formats without windows store the display window
+    std::vector<ChannelInfo> channels;  // names and the types the engine would keep them in
+    Metadata metadata;
+    Depth depth = Depth::kAuto;
+    std::string compression = "zip";
+};
+
+// One chunk of rows, ready to be put into the file.
+struct EncodedChunk {
+    int index = 0;  // chunks from the top, from 0
+    std::vector<std::byte> bytes;
+};
+
+// An output being made.  Nothing is under its name before finish(); a sink destroyed earlier leaves nothing.
+class ImageSink {
+public:
+    virtual ~ImageSink() = default;
+
+    // The rows that the file stores: every chunk is `chunk_height` of them over the whole width, from
+    // region().y0 on, cut at its end.
+    virtual Rect region() const = 0;
+    virtual int chunk_height() const = 0;
+
+    // In which type encode() takes each channel (same order as in SinkSpec): what the engine must keep.
+    virtual const std::vector<ChannelInfo>& channels() const = 0;
+
+    // Packs and compresses one chunk; `planes` holds a plane a channel, each covering the chunk.  Safe from
+    // any number of threads at once.
+    virtual EncodedChunk encode(int index, std::span<const Plane> planes) const = 0;
+
+    // Appends to the file.  Called once a chunk, by one thread at a time, in increasing order of index.
+    // Throws Failure (kOutput).
+    virtual void commit(EncodedChunk chunk) = 0;
+
+    // Checks that every chunk is there, syncs, and gives the file its name.  Throws Failure (kOutput).
+    virtual void finish() = 0;
+
+    // Bytes that one encode() needs for itself while it runs.
+    virtual std::size_t chunk_memory() const = 0;
+};
+
+// Starts an output; the format follows the extension.  Missing folders are made.
+// Throws Failure: kOutput where the file can't be made, kGraph where the format can't hold what is asked
+// (depth, channels, compression), naming what it can.
+std::unique_ptr<ImageSink> create_image(const std::filesystem::path& file, const SinkSpec& spec);
+
+// Whether `file` opens and has the windows and channels of `spec` (--skip-existing).
+bool is_finished(const std::filesystem::path& file, const SinkSpec& spec);
+
+// Removes unfinished outputs for `file` whose process, on this host, no longer lives.
+void remove_leftovers(const std::filesystem::path& file);
+
+}  // namespace keyline

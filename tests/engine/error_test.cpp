@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/error.h"
+
+#include <gtest/gtest.h>
+
+namespace keyline {
+namespace {
+
+TEST(Error, TellsPlaceNodeWhatAndHint) {
+    const Error e{ErrorKind::kGraph,
+                  {"g.json", 3, 7},
+                  "node 'a' (gaussian)",
+                  "unknown key 'sgma'",
+                  "did you mean 'sigma'?"};
+    EXPECT_EQ(e.text(), "g.json:3:7: error: node 'a' (gaussian): unknown key 'sgma'; did you mean 'sigma'?");
+}
+
+TEST(Error, LeavesOutWhatIsEmpty) {
+    EXPECT_EQ((Error{ErrorKind::kInput, {}, {}, "no such file", {}}.text()), "error: no such file");
+    EXPECT_EQ((Error{ErrorKind::kGraph, {"--set a.b=1", 0, 0}, {}, "bad", {}}.text()),
+              "--set a.b=1: error: bad");
+}
+
+TEST(Error, InternalOnesSaySo) {
+    EXPECT_EQ((Error{ErrorKind::kInternal, {}, "node 'a'", "wrong", {}}.text()),
+              "error: internal: node 'a': wrong");
+}
+
+TEST(InQuotes, CutsAtSixtyCharactersNotBytes) {
+    EXPECT_EQ(in_quotes(std::string(60, 'x')), "'" + std::string(60, 'x') + "'");
+    EXPECT_EQ(in_quotes(std::string(61, 'x')), "'" + std::string(60, 'x') + "…'");
+    std::string umlauts;
+    for (int i = 0; i < 60; ++i) umlauts += "ü";
+    EXPECT_EQ(in_quotes(umlauts), "'" + umlauts + "'");
+}
+
+TEST(InQuotes, EscapesControlCharacters) { EXPECT_EQ(in_quotes("a\nb\x1b[0m"), "'a\\nb\\x1b[0m'"); }
+
+TEST(DidYouMean, FindsTheNearestAndOnlyNearOnes) {
+    EXPECT_EQ(did_you_mean("sgma", {"in", "sigma"}), "did you mean 'sigma'?");
+    EXPECT_EQ(did_you_mean("radius", {"in", "sigma"}), "");
+    EXPECT_EQ(did_you_mean("a", {"b"}), "");
+}
+
+TEST(Listed, ReadsAsASentence) {
+    EXPECT_EQ(listed({"a"}), "'a'");
+    EXPECT_EQ(listed({"a", "b", "c"}), "'a', 'b' and 'c'");
+}
+
+}  // namespace
+}  // namespace keyline
