@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/error.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace keyline {
+
+struct Member;
+
+// A JSON value that remembers where it stood, so that whoever finds fault with it can say where.
+struct Value {
+    enum class Kind { kNull, kBool, kNumber, kString, kArray, kObject };
+
+    Kind kind = Kind::kNull;
+    bool boolean = false;
+    double number = 0;
+    std::string text;             // a string's text; a number's as it was written
+    std::vector<Value> items;     // an array's
+    std::vector<Member> members;  // an object's, in the file's order; keys are unique
+    Place place;
+
+    bool is(Kind k) const { return kind == k; }
+    const Member* find(std::string_view key) const;  // null where there is none
+
+    // For messages: compact JSON, cut to 60 characters.
+    std::string shown() const;
+};
+
+struct Member {
+    std::string key;
+    Place key_place;
+    Value value;
+};
+
+// "a number", "a string", "an array", …
+std::string_view kind_name(Value::Kind kind);
+
+}  // namespace keyline
