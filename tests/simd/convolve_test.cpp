@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/simd/convolve.h"
+
+#include "tests/support/rows.h"
+#include "tests/support/targets.h"
+
+namespace keyline {
+namespace {
+
+using simd::Margin;
+using simd::Taps;
+using test::GuardedRow;
+
+Taps bell(int radius) {
+    std::vector<double> half;
+    for (int d = 0; d <= radius; ++d) half.push_back(1.0 / (1 + 0.3 * d * d));
+    return Taps(half);
+}
+
+// The formula of convolve.h for one pixel; `in` steps from tap to tap by `step`, and `margin` is the pixel's
+// own.
+float reference(const float* in, std::ptrdiff_t step, Margin margin, const Taps& taps) {
+    const float* w = taps.weights();
+    const auto tap = [&](int k) { return k < -margin.before || k > margin.after ? 0.0F : in[k * step]; };
+    float total = w[0] * in[0];
+    for (int begin = 1; begin <= taps.radius(); begin += 16) {
+        float before = w[begin] * tap(-begin), after = w[begin] * tap(begin);
+        for (int k = begin + 1; k < begin + 16 && k <= taps.radius(); ++k) {
+            before += w[k] * tap(-k);
+            after += w[k] * tap(k);
+        }
+        total += before + after;
+    }
+    const bool whole = margin.before >= taps.radius() && margin.after >= taps.radius();
+    return test::one_nan(whole ? total : total * taps.edge_scale(margin));
+}
+
+std::vector<float> reference_row(const float* in, int n, Margin margin, const Taps& taps) {
+    std::vector<float> out;
+    for (int i = 0; i < n; ++i)
+        out.push_back(reference(in + i, 1, {margin.before + i, margin.after + n - 1 - i}, taps));
+    return out;
+}
+
+TEST(Taps, AreNormalised) {
+    const Taps taps({2, 1});
+    ASSERT_EQ(taps.radius(), 1);
+    EXPECT_EQ(taps.weights()[0], 0.5F);
+    EXPECT_EQ(taps.weights()[1], 0.25F);
+    EXPECT_EQ(taps.edge_scale({5, 1}), 1.0F);
+    EXPECT_EQ(taps.edge_scale({0, 1}), static_cast<float>(1 / 0.75));
+    EXPECT_EQ(taps.edge_scale({0, 0}), 2.0F);
+}
+
+TEST(ConvolveRow, IsTheFormulaOnEveryTarget) {
+    test::on_every_target([] {
+        for (const int radius : {0, 1, 4, 16, 17, 40}) {
+            const Taps taps = bell(radius);
+            for (int n = 0; n <= 70; ++n) {
+                const Margin margin{n % 3 == 0 ? radius + 1 : n % 5, n % 4 == 0 ? radius : n % 7};
+                const auto source =
+                    test::awkward_row(margin.before + n + margin.after, static_cast<unsigned>(n));
+                const float* in = source.data() + margin.before;
+                GuardedRow out(n, n % 4);
+                simd::convolve_row(in, out.data(), n, margin, taps);
+                test::expect_row(out, reference_row(in, n, margin, taps));
+            }
+        }
+    });
+}
+
+TEST(ConvolveColumn, IsTheFormulaOnEveryTarget) {
+    test::on_every_target([] {
+        for (const Margin margin : {Margin{4, 4}, Margin{9, 5}, Margin{0, 4}, Margin{2, 1}, Margin{0, 0}}) {
+            const Taps taps = bell(4);
+            for (int n = 0; n <= 70; ++n) {
+                const int stride = n + 3;
+                const int rows = margin.before + 1 + margin.after;
+                const auto source = test::awkward_row(stride * rows, static_cast<unsigned>(n));
+                const float* in = source.data() + margin.before * stride;
+                std::vector<float> expected;
+                for (int i = 0; i < n; ++i) expected.push_back(reference(in + i, stride, margin, taps));
+                GuardedRow out(n, n % 4);
+                simd::convolve_column(in, stride, out.data(), n, margin, taps);
+                test::expect_row(out, expected);
+            }
+        }
+    });
+}
+
+TEST(ConvolveRow, KeepsAFlatFieldFlatUpToTheEdge) {
+    const std::vector<float> ones(9, 1.0F);
+    std::vector<float> out(9);
+    simd::convolve_row(ones.data(), out.data(), 9, {0, 0}, bell(6));
+    for (const float value : out) EXPECT_NEAR(value, 1.0F, 2e-7F);
+}
+
+TEST(ConvolveRow, TakesABackgroundAtTheTopOfFloat) {
+    const std::vector<float> far(20, 3e38F);
+    std::vector<float> out(12);
+    simd::convolve_row(far.data() + 4, out.data(), 12, {4, 4}, bell(4));
+    for (const float value : out) EXPECT_NEAR(value, 3e38F, 1e32F);
+}
+
+TEST(ConvolveRow, AMirroredRowGivesTheMirroredResult) {
+    const Taps taps = bell(20);
+    auto row = test::plain_row(50, 1);
+    std::vector<float> out(50), mirrored(50);
+    simd::convolve_row(row.data(), out.data(), 50, {0, 0}, taps);
+    std::reverse(row.begin(), row.end());
+    simd::convolve_row(row.data(), mirrored.data(), 50, {0, 0}, taps);
+    std::reverse(mirrored.begin(), mirrored.end());
+    test::expect_same_bits(out, mirrored);
+}
+
+TEST(ConvolveRow, AWideKernelKeepsItsPrecision) {
+    const Taps taps = bell(1250);
+    const auto row = test::plain_row(2501, 1);
+    double exact = 0, sum = 0;
+    for (int k = -1250; k <= 1250; ++k) {
+        const double weight = 1.0 / (1 + 0.3 * k * k);
+        exact += weight * static_cast<double>(row[static_cast<std::size_t>(1250 + k)]);
+        sum += weight;
+    }
+    float out = 0;
+    simd::convolve_row(row.data() + 1250, &out, 1, {1250, 1250}, taps);
+    EXPECT_NEAR(out, exact / sum, 1e-6);
+}
+
+TEST(ConvolveRegion, APixelIsTheSameWhateverTheTile) {
+    const Rect window{-3, 5, 37, 26};
+    const auto pixels = test::plain_row(40 * 21, 3);
+    const View image{pixels.data(), 40, window, window};
+    const Taps taps = bell(5);
+    std::vector<float> whole(40 * 21), tiled(40 * 21), whole_y(40 * 21), tiled_y(40 * 21);
+    simd::convolve_x(image, {whole.data(), 40, window, window}, taps);
+    simd::convolve_y(image, {whole_y.data(), 40, window, window}, taps);
+    for (int y = window.y0; y < window.y1; y += 4) {
+        for (int x = window.x0; x < window.x1; x += 7) {
+            const Rect tile = intersect({x, y, x + 7, y + 4}, window);
+            const auto view = [&](const Rect& r) { return View{image.at(r.x0, r.y0), 40, r, window}; };
+            const std::ptrdiff_t at = (y - window.y0) * 40 + x - window.x0;
+            simd::convolve_x(view(intersect(grow(tile, {5, 0}), window)),
+                             {&tiled[static_cast<std::size_t>(at)], 40, tile, window}, taps);
+            simd::convolve_y(view(intersect(grow(tile, {0, 5}), window)),
+                             {&tiled_y[static_cast<std::size_t>(at)], 40, tile, window}, taps);
+        }
+    }
+    test::expect_same_bits(tiled, whole);
+    test::expect_same_bits(tiled_y, whole_y);
+}
+
+}  // namespace
+}  // namespace keyline
