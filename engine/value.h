@@ -19,7 +19,7 @@ struct Value {
     Kind kind = Kind::kNull;
     bool boolean = false;
     double number = 0;
-    std::string text;             // a string's text; a number's as it was written
+    std::string text;             // a string's text; a number's as written; an option's value as typed
     std::vector<Value> items;     // an array's
     std::vector<Member> members;  // an object's, in the file's order; keys are unique
     Place place;
