@@ -70,10 +70,10 @@ void append(std::string& out, const Value& value) {
 
 }  // namespace
 
-const Member* Value::find(std::string_view key) const {
+const Value* Value::find(std::string_view key) const {
     const auto found =
         std::find_if(members.begin(), members.end(), [&](const Member& m) { return m.key == key; });
-    return found == members.end() ? nullptr : &*found;
+    return found == members.end() ? nullptr : &found->value;
 }
 
 std::string Value::shown() const {

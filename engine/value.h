@@ -25,7 +25,7 @@ struct Value {
     Place place;
 
     bool is(Kind k) const { return kind == k; }
-    const Member* find(std::string_view key) const;  // null where there is none
+    const Value* find(std::string_view key) const;  // of an object; null where there is none
 
     // For messages: compact JSON, cut to 60 characters.
     std::string shown() const;

@@ -146,9 +146,9 @@ Value::Kind declared_kind(const Value& variables, const Value* value) {
         const Template parsed = parse_template(value->text);
         if (!parsed.is_just_a_name()) return Value::Kind::kString;
         if (parsed.pieces[0].kind == Piece::Kind::kFrame) return Value::Kind::kNumber;
-        const Member* other = variables.find(parsed.pieces[0].text);
+        const Value* other = variables.find(parsed.pieces[0].text);
         if (parsed.pieces[0].kind != Piece::Kind::kVariable || other == nullptr) return Value::Kind::kString;
-        value = &other->value;
+        value = other;
     }
     return value->kind;
 }
@@ -349,7 +349,7 @@ void Variables::override_one(const std::string& name, const Value& value, const 
         diagnostics.error({ErrorKind::kGraph, value.place, {}, "unknown variable " + in_quotes(name), hint});
         return;
     }
-    const bool is_text = declared_kind(*declared, &declared->find(name)->value) == Value::Kind::kString;
+    const bool is_text = declared_kind(*declared, declared->find(name)) == Value::Kind::kString;
     variables_[at->second].value = is_text ? string_value(value.text, value.place) : value;
 }
 

@@ -57,6 +57,9 @@ public:
 
     // Bytes that one read_chunk of the group needs for itself while it runs (packed and unpacked buffers).
     virtual std::size_t chunk_memory(std::size_t group) const = 0;
+
+    // What decoding met that is worth a warning, once the frame is done.
+    virtual std::vector<std::string> findings() const { return {}; }
 };
 
 struct OpenOptions {

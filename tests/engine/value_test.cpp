@@ -31,7 +31,7 @@ TEST(Value, IsShownInSixtyCharacters) {
 TEST(Value, FindsItsMembers) {
     const Value v = parse_json(R"({"a": 1, "b": 2})", "g.json");
     ASSERT_NE(v.find("b"), nullptr);
-    EXPECT_EQ(v.find("b")->value.number, 2);
+    EXPECT_EQ(v.find("b")->number, 2);
     EXPECT_EQ(v.find("c"), nullptr);
 }
 

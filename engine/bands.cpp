@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/bands.h"
+
+#include "engine/simd/half.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace keyline {
+
+Bands::Bands(const Rect& region, std::vector<SampleType> types, int origin, int height)
+    : region_(region), types_(std::move(types)), origin_(origin), height_(height) {
+    first_ = region_.empty() ? 0 : band_of(region_.y0);
+    if (!region_.empty()) bands_.resize(static_cast<std::size_t>(band_of(region_.y1 - 1) + 1 - first_));
+}
+
+Rect Bands::rect(int band) const {
+    const int y = origin_ + band * height_;
+    return intersect(region_, {region_.x0, y, region_.x1, y + height_});
+}
+
+std::size_t Bands::plane_offset(std::size_t plane) const {
+    const auto rows = static_cast<std::size_t>(std::min(height_, region_.height()));
+    const std::size_t samples = static_cast<std::size_t>(region_.width()) * rows;
+    std::size_t offset = 0;
+    for (std::size_t i = 0; i < plane; ++i)
+        offset += (samples * sample_size(types_[i]) + kCacheLine - 1) / kCacheLine * kCacheLine;
+    return offset;
+}
+
+void Bands::allocate(int band, bool zero) {
+    Memory& memory = bands_[static_cast<std::size_t>(band - first_)];
+    if (spare_.empty()) {
+        memory = make_aligned<std::byte>(plane_offset(types_.size()));
+    } else {
+        memory = std::move(spare_.back());
+        spare_.pop_back();
+    }
+    if (zero) std::memset(memory.get(), 0, plane_offset(types_.size()));
+}
+
+void Bands::release(int band, bool reuse) {
+    Memory memory = std::move(bands_[static_cast<std::size_t>(band - first_)]);
+    if (memory && reuse) spare_.push_back(std::move(memory));
+}
+
+Plane Bands::plane(int band, std::size_t plane) const {
+    const Rect r = rect(band);
+    const auto stride = static_cast<std::ptrdiff_t>(sample_size(types_[plane])) * r.width();
+    return {slot(band).get() + plane_offset(plane), stride, types_[plane], r};
+}
+
+void Bands::load(std::size_t plane, const MutView& out) const {
+    const auto n = static_cast<std::size_t>(out.rect.width());
+    for (int y = out.rect.y0; y < out.rect.y1; ++y) {
+        const std::byte* in = this->plane(band_of(y), plane).at(out.rect.x0, y);
+        switch (types_[plane]) {
+            case SampleType::kHalf:
+                half_to_float(reinterpret_cast<const uint16_t*>(in), out.row(y), n);
+                break;
+            case SampleType::kFloat: std::memcpy(out.row(y), in, n * sizeof(float)); break;
+            case SampleType::kUint:
+                uint_to_float(reinterpret_cast<const uint32_t*>(in), out.row(y), n);
+                break;
+        }
+    }
+}
+
+std::size_t Bands::store(std::size_t plane, const View& in) {
+    const auto n = static_cast<std::size_t>(in.rect.width());
+    std::size_t overflowed = 0;
+    for (int y = in.rect.y0; y < in.rect.y1; ++y) {
+        std::byte* out = this->plane(band_of(y), plane).at(in.rect.x0, y);
+        switch (types_[plane]) {
+            case SampleType::kHalf:
+                overflowed += float_to_half(in.row(y), reinterpret_cast<uint16_t*>(out), n);
+                break;
+            case SampleType::kFloat: std::memcpy(out, in.row(y), n * sizeof(float)); break;
+            case SampleType::kUint: float_to_uint(in.row(y), reinterpret_cast<uint32_t*>(out), n); break;
+        }
+    }
+    return overflowed;
+}
+
+void Bands::copy(std::size_t plane, const Bands& from, std::size_t from_plane, const Rect& region) {
+    const std::size_t bytes = sample_size(types_[plane]) * static_cast<std::size_t>(region.width());
+    for (int y = region.y0; y < region.y1; ++y)
+        std::memcpy(this->plane(band_of(y), plane).at(region.x0, y),
+                    from.plane(from.band_of(y), from_plane).at(region.x0, y), bytes);
+}
+
+}  // namespace keyline

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/aligned.h"
+#include "engine/image.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace keyline {
+
+// Planes of samples held by bands of rows, each allocated when its first row comes and released when its last
+// reader is done.  Memory of a released band serves the next one.
+//
+// allocate() and release() are for one thread at a time; a band's samples may be read and written by many, as
+// long as they keep to different samples.
+class Bands {
+public:
+    // Band i holds the rows [origin + i·height, origin + (i+1)·height) of `region`.
+    Bands(const Rect& region, std::vector<SampleType> types, int origin, int height);
+
+    const Rect& region() const { return region_; }
+    const std::vector<SampleType>& types() const { return types_; }
+    int first_band() const { return first_; }
+    int end_band() const { return first_ + static_cast<int>(bands_.size()); }
+    Rect rect(int band) const;
+
+    bool allocated(int band) const { return slot(band) != nullptr; }
+    void allocate(int band, bool zero);
+    void release(int band, bool reuse);  // `reuse`: another band will want the memory
+
+    Plane plane(int band, std::size_t plane) const;
+
+    // Samples of one plane as floats; `region` lies inside the bands' region.
+    void load(std::size_t plane, const MutView& out) const;
+
+    // The other way.  Returns how many finite values became infinity because half can't hold them.
+    std::size_t store(std::size_t plane, const View& in);
+
+    // Samples of a plane of the same type, as they are.
+    void copy(std::size_t plane, const Bands& from, std::size_t from_plane, const Rect& region);
+
+private:
+    using Memory = AlignedArray<std::byte>;
+    const Memory& slot(int band) const { return bands_[static_cast<std::size_t>(band - first_)]; }
+    int band_of(int y) const { return floor_div(y - origin_, height_); }
+    std::size_t plane_offset(std::size_t plane) const;  // bytes into a band
+
+    Rect region_;
+    std::vector<SampleType> types_;
+    int origin_, height_, first_;
+    std::vector<Memory> bands_;
+    std::vector<Memory> spare_;
+};
+
+}  // namespace keyline

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/frame_run.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace keyline {
+
+FrameRun::FrameRun(Plan plan) : plan_(std::move(plan)) {
+    create_sinks();
+    data_.stores.resize(plan_.stores.size());
+    data_.reductions.resize(plan_.frame.ops.size());
+    for (std::size_t i = 0; i < plan_.frame.ops.size(); ++i) {
+        const Op& op = plan_.frame.ops[i];
+        const Reduction* r = op.operation ? op.operation->reduction() : nullptr;
+        if (r && plan_.demand.needs(i)) data_.reductions[i] = r->start(op.outputs.front().window);
+    }
+    start_sweep();
+}
+
+FrameRun::~FrameRun() = default;
+
+void FrameRun::create_sinks() {
+    overflowed_.resize(plan_.frame.sinks.size(), 0);
+    for (const Sink& sink : plan_.frame.sinks) {
+        try {
+            sinks_.push_back(sink.request.create(sink.request.spec));
+        } catch (const Failure& f) {
+            Error e = f.error();
+            if (e.node.empty()) e.node = fmt::format("{}, frame {}", sink.title, plan_.frame.frame);
+            throw Failure(std::move(e));
+        }
+        const ImageSink& s = *sinks_.back();
+        std::vector<SampleType> types;
+        for (const ChannelInfo& c : s.channels()) types.push_back(c.type);
+        data_.sinks.push_back(
+            std::make_unique<Bands>(s.region(), std::move(types), s.region().y0, s.chunk_height()));
+    }
+}
+
+void FrameRun::start_sweep() {
+    for (std::size_t i = 0; i < plan_.stores.size(); ++i) {
+        const Store& store = plan_.stores[i];
+        if (store.first_sweep == static_cast<int>(sweep_index_))
+            data_.stores[i] =
+                std::make_unique<Bands>(store.region, store.types, store.band_origin, store.band_height);
+    }
+    sweep_ = std::make_unique<SweepRun>(plan_, static_cast<int>(sweep_index_), data_, sinks_);
+}
+
+// Ends a round of each whole-frame node mapped, and drops what no later sweep uses.
+void FrameRun::end_sweep() {
+    const Sweep& sweep = plan_.sweeps[sweep_index_];
+    for (const Root& root : sweep.roots)
+        if (root.kind == Root::Kind::kMap)
+            plan_.frame.ops[static_cast<std::size_t>(root.op)].operation->reduction()->finish(
+                *data_.reductions[static_cast<std::size_t>(root.op)]);
+    for (std::size_t i = 0; i < plan_.stores.size(); ++i)
+        if (plan_.stores[i].last_sweep == static_cast<int>(sweep_index_)) data_.stores[i].reset();
+    for (std::size_t i = 0; i < overflowed_.size(); ++i) overflowed_[i] += sweep_->overflowed()[i];
+}
+
+std::optional<Job> FrameRun::next() {
+    if (error_ || cancelled_) return std::nullopt;
+    std::optional<Job> job;
+    if (sweep_) {
+        job = sweep_->next();
+        if (!job && under_way_ == 0 && sweep_->done()) job = Job{Job::Kind::kEndSweep, 0, 0, 0};
+    } else if (next_finish_ < sinks_.size()) {
+        job = Job{Job::Kind::kFinish, static_cast<int>(next_finish_++), 0, 0};
+    }
+    if (job) ++under_way_;
+    return job;
+}
+
+void FrameRun::run(const Job& job, TileWorker& worker) {
+    switch (job.kind) {
+        case Job::Kind::kEndSweep: end_sweep(); break;
+        case Job::Kind::kFinish: sinks_[static_cast<std::size_t>(job.which)]->finish(); break;
+        default: sweep_->run(job, worker);
+    }
+}
+
+void FrameRun::completed(const Job& job) {
+    --under_way_;
+    if (job.kind == Job::Kind::kEndSweep) {
+        sweep_.reset();
+        if (++sweep_index_ < plan_.sweeps.size()) start_sweep();
+    } else if (sweep_) {
+        sweep_->completed(job);
+    }
+}
+
+void FrameRun::failed(const Job& job, std::exception_ptr error) {
+    --under_way_;
+    if (error_job_ && *error_job_ < job) return;
+    error_ = std::move(error);
+    error_job_ = job;
+}
+
+bool FrameRun::done() const {
+    if (under_way_ > 0) return false;
+    return error_ || cancelled_ || (!sweep_ && next_finish_ == sinks_.size());
+}
+
+std::vector<Error> FrameRun::warnings() const {
+    std::vector<Error> out;
+    for (std::size_t i = 0; i < overflowed_.size(); ++i) {
+        if (overflowed_[i] == 0) continue;
+        out.push_back({ErrorKind::kFailed,
+                       {},
+                       fmt::format("{}, frame {}", plan_.frame.sinks[i].title, plan_.frame.frame),
+                       fmt::format("{} value{} beyond half's range became infinity", overflowed_[i],
+                                   overflowed_[i] == 1 ? "" : "s"),
+                       "write with \"depth\": \"float\" to keep them"});
+    }
+    return out;
+}
+
+}  // namespace keyline

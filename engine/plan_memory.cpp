@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/plan_memory.h"
+
+#include "engine/io/image_sink.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace keyline {
+
+namespace {
+
+// The program, its libraries and their heaps before a frame is begun; measured with an empty graph.
+constexpr std::size_t kProcessBytes = std::size_t{24} << 20;
+// A worker's stack as far as it is touched, and the allocator's arena.
+constexpr std::size_t kWorkerBytes = std::size_t{1} << 20;
+
+std::size_t scratch_bytes(const Plan& plan, const Sweep& sweep) {
+    if (sweep.area.empty()) return 0;
+    const int column = (sweep.first_column() + sweep.end_column()) / 2,
+              row = (sweep.first_row() + sweep.end_row()) / 2;
+    const std::vector<Rect> regions = step_regions(plan, sweep, sweep.tile(column, row));
+    std::vector<std::size_t> slots(static_cast<std::size_t>(sweep.slots), 0);
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        const auto bytes = static_cast<std::size_t>(regions[i].area()) * sizeof(float);
+        largest = std::max(largest, bytes);
+        for (const int s : sweep.steps[i].slots) {
+            std::size_t& slot = slots[static_cast<std::size_t>(s)];
+            slot = std::max(slot, bytes);
+        }
+    }
+    std::size_t sum = 2 * largest;  // what the operations take for themselves
+    for (const std::size_t s : slots) sum += s;
+    return sum;
+}
+
+std::size_t sink_bytes(const Plan& plan, const Sweep& sweep, const Sink& sink) {
+    std::size_t row = 0;
+    for (const ChannelInfo& c : sink.request.spec.channels)
+        row += sample_size(c.type) * static_cast<std::size_t>(sink.request.stream.window.width());
+    const auto rows = static_cast<std::size_t>(plan.rows_ahead * sweep.tile_height + 32);
+    return row * std::min(rows, static_cast<std::size_t>(sink.request.stream.window.height()));
+}
+
+bool is_alive(const Store& store, int sweep) {
+    return store.first_sweep <= sweep && sweep <= store.last_sweep;
+}
+
+}  // namespace
+
+int live_rows(const Plan& plan, const Sweep& sweep, const Store& store) {
+    const auto index = static_cast<std::size_t>(&store - plan.stores.data());
+    int most = 0;
+    for (int row = sweep.first_row(); row < sweep.end_row(); ++row) {
+        Rect tiles;
+        for (int r = row; r < std::min(sweep.end_row(), row + plan.rows_ahead); ++r)
+            tiles = unite(tiles, intersect(sweep.area, {sweep.area.x0, r * sweep.tile_height, sweep.area.x1,
+                                                        (r + 1) * sweep.tile_height}));
+        most = std::max(most, store_regions(plan, sweep, tiles)[index].height());
+    }
+    return std::min(store.region.height(), most + 2 * store.band_height);
+}
+
+void estimate_memory(Plan& plan) {
+    plan.memory_bytes = 0;
+    for (std::size_t s = 0; s < plan.sweeps.size(); ++s) {
+        Sweep& sweep = plan.sweeps[s];
+        const int index = static_cast<int>(s);
+        sweep.scratch_bytes = scratch_bytes(plan, sweep);
+        std::size_t worker = kWorkerBytes + sweep.scratch_bytes, frame = 0;
+        for (const Store& store : plan.stores) {
+            if (!is_alive(store, index)) continue;
+            const bool passing = store.first_sweep == store.last_sweep && store.source_op >= 0;
+            frame += passing ? store.row_bytes() * static_cast<std::size_t>(live_rows(plan, sweep, store))
+                             : store.bytes();
+            if (store.source_op >= 0 && store.first_sweep == index)
+                worker += plan.frame.ops[static_cast<std::size_t>(store.source_op)].source->chunk_memory(
+                    store.group);
+        }
+        for (const Root& root : sweep.roots) {
+            if (root.kind == Root::Kind::kSink)
+                frame += sink_bytes(plan, sweep, plan.frame.sinks[static_cast<std::size_t>(root.sink)]);
+        }
+        for (const Op& op : plan.frame.ops)
+            if (op.operation && op.operation->reduction() && !op.links.empty())
+                frame += op.operation->reduction()->state_bytes(op.links.front().window);
+        sweep.memory_bytes = kProcessBytes + frame + worker * static_cast<std::size_t>(plan.threads);
+        plan.memory_bytes = std::max(plan.memory_bytes, sweep.memory_bytes);
+    }
+}
+
+std::string memory_text(std::size_t bytes) {
+    constexpr double kMega = 1024.0 * 1024.0, kGiga = 1024.0 * kMega;
+    const auto b = static_cast<double>(bytes);
+    if (b < 10 * kGiga) return fmt::format("{:.0f}M", std::max(1.0, std::ceil(b / kMega)));
+    return fmt::format("{:.0f}G", std::ceil(b / kGiga));
+}
+
+}  // namespace keyline

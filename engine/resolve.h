@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/graph.h"
+#include "engine/node.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace keyline {
+
+// One output of an operation: where it is not 0, and how a source stores it.
+struct ValueInfo {
+    Rect window;
+    std::optional<SampleType> stored;  // nothing: computed
+};
+
+// An operation of one frame, or a source (operation null).
+struct Op {
+    std::string title;  // "node 'a' (gaussian)"
+    int frame = 0;
+    std::shared_ptr<const Operation> operation;
+    std::shared_ptr<const ImageSource> source;
+    std::vector<Link> links;
+    std::vector<ValueInfo> outputs;
+    std::vector<std::size_t> source_group, source_channel;  // of each output of a source
+};
+
+struct Sink {
+    std::string title;
+    Place place;
+    SinkRequest request;
+};
+
+// What a frame is: its operations in an order in which each comes after what it reads, and what leaves it.
+struct ResolvedFrame {
+    int frame = 0;
+    std::vector<Op> ops;
+    std::vector<Sink> sinks;
+
+    const ValueInfo& info(ValueRef v) const {
+        return ops[static_cast<std::size_t>(v.op)].outputs[static_cast<std::size_t>(v.output)];
+    }
+};
+
+struct ResolveOptions {
+    std::filesystem::path ocio;  // the config; empty: the built-in one
+    bool every_node = false;     // resolve those too that nothing written uses
+};
+
+// Forward: display windows, data windows and channels of every stream, from the files' headers alone.  Faults
+// of the graph and its files go to the diagnostics; nothing is returned where there was one.
+std::optional<ResolvedFrame> resolve(const Graph& graph, int frame, const ResolveOptions& options,
+                                     Diagnostics& diagnostics);
+
+}  // namespace keyline

@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/sweep_run.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace keyline {
+
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+bool covers(const Plan& plan, const Sink& sink, const Rect& rect) {
+    const Stream& stream = sink.request.stream;
+    return stream.window.contains(rect) && std::ranges::all_of(stream.channels, [&](const StreamChannel& c) {
+               return plan.frame.info(c.value).window.contains(rect);
+           });
+}
+
+}  // namespace
+
+SweepRun::SweepRun(const Plan& plan, int sweep, FrameData& data,
+                   std::vector<std::unique_ptr<ImageSink>>& sinks)
+    : plan_(plan),
+      sweep_(plan.sweeps[index(sweep)]),
+      index_(sweep),
+      data_(data),
+      sinks_(sinks),
+      overflowed_(plan.frame.sinks.size(), 0) {
+    plan_rows();
+    plan_reads();
+    plan_outputs();
+    plan_folds();
+}
+
+Rect SweepRun::row_rect(int row) const {
+    const int y = (sweep_.first_row() + row) * sweep_.tile_height;
+    return intersect(sweep_.area, {sweep_.area.x0, y, sweep_.area.x1, y + sweep_.tile_height});
+}
+
+void SweepRun::plan_rows() {
+    const int columns = sweep_.end_column() - sweep_.first_column();
+    rows_.resize(index(sweep_.end_row() - sweep_.first_row()));
+    for (int r = 0; r < static_cast<int>(rows_.size()); ++r) {
+        rows_[index(r)].tiles_left = columns;
+        row_needs_.push_back(store_regions(plan_, sweep_, row_rect(r)));
+    }
+    users_.resize(plan_.stores.size());
+    for (std::size_t s = 0; s < plan_.stores.size(); ++s) {
+        const Store& store = plan_.stores[s];
+        if (store.region.empty()) continue;
+        users_[s].resize(index(store.end_band() - store.first_band()), 0);
+        for (const auto& needs : row_needs_)
+            for (int b = store.first_band(); !needs[s].empty() && b < store.end_band(); ++b)
+                if (!intersect(store.band(b), needs[s]).empty()) ++users_[s][index(b - store.first_band())];
+    }
+}
+
+// The row of tiles that needs a band first.  A band that none needs is kept for a later sweep.
+int SweepRun::due_row(int store, int band) const {
+    const Rect rect = plan_.stores[index(store)].band(band);
+    for (std::size_t r = 0; r < row_needs_.size(); ++r)
+        if (!intersect(rect, row_needs_[r][index(store)]).empty()) return static_cast<int>(r);
+    return static_cast<int>(rows_.size()) - 1;
+}
+
+void SweepRun::plan_reads() {
+    for (const int s : sweep_.reads) {
+        const Store& store = plan_.stores[index(s)];
+        const ChannelGroup& group =
+            plan_.frame.ops[index(store.source_op)].source->header().groups[store.group];
+        Read read;
+        read.store = s;
+        read.first_column = (store.region.x0 - group.window.x0) / group.chunk_width;
+        read.columns = (store.region.x1 - 1 - group.window.x0) / group.chunk_width + 1 - read.first_column;
+        read.waiting.assign(index(store.end_band() - store.first_band()), read.columns);
+        const bool passing = store.first_sweep == store.last_sweep;
+        for (int b = store.first_band(); b < store.end_band(); ++b) {
+            if (passing && users_[index(s)][index(b - store.first_band())] == 0) continue;
+            const int due = due_row(s, b);
+            for (int c = 0; c < read.columns; ++c)
+                decodes_.push_back({due, {Job::Kind::kDecode, s, b, read.first_column + c}});
+            for (std::size_t r = 0; r < rows_.size(); ++r)
+                if (!intersect(store.band(b), row_needs_[r][index(s)]).empty()) ++rows_[r].bands_missing;
+        }
+        reads_.push_back(std::move(read));
+    }
+    std::ranges::stable_sort(decodes_, {}, &std::pair<int, Job>::first);
+    decodes_left_ = decodes_.size();
+}
+
+void SweepRun::plan_outputs() {
+    for (std::size_t i = 0; i < sweep_.roots.size(); ++i) {
+        if (sweep_.roots[i].kind != Root::Kind::kSink) continue;
+        Output out;
+        out.root = static_cast<int>(i);
+        out.sink = sweep_.roots[i].sink;
+        const Bands& bands = *data_.sinks[index(out.sink)];
+        const int chunks = bands.end_band() - bands.first_band();
+        for (int c = 0; c < chunks; ++c) {
+            int missing = 0;
+            for (int r = 0; r < static_cast<int>(rows_.size()); ++r)
+                missing += !intersect(bands.rect(bands.first_band() + c), row_rect(r)).empty() ? 1 : 0;
+            out.rows_missing.push_back(missing);
+            if (missing == 0)
+                encodes_.push_back({Job::Kind::kEncode, static_cast<int>(outputs_.size()), c, 0});
+        }
+        out.encoded.resize(index(chunks));
+        out.ready.resize(index(chunks), false);
+        out.chunks_left = chunks;
+        outputs_.push_back(std::move(out));
+    }
+}
+
+void SweepRun::plan_folds() {
+    for (std::size_t i = 0; i < sweep_.roots.size(); ++i) {
+        if (sweep_.roots[i].kind != Root::Kind::kMap) continue;
+        Fold f;
+        f.root = static_cast<int>(i);
+        folds_.push_back(std::move(f));
+    }
+}
+
+// Rows below this one may be worked on.
+int SweepRun::last_open_row() const {
+    return std::min(static_cast<int>(rows_.size()), lowest_row_ + plan_.rows_ahead);
+}
+
+// What a row of tiles writes is allocated when the row is opened.
+void SweepRun::start_rows() {
+    for (; started_rows_ < last_open_row(); ++started_rows_) {
+        const Rect rect = row_rect(started_rows_);
+        for (const Output& out : outputs_) {
+            Bands& bands = *data_.sinks[index(out.sink)];
+            for (int b = bands.first_band(); b < bands.end_band(); ++b)
+                if (!bands.allocated(b) && !intersect(bands.rect(b), rect).empty())
+                    bands.allocate(b, !covers(plan_, plan_.frame.sinks[index(out.sink)], bands.rect(b)));
+        }
+        for (const Root& root : sweep_.roots) {
+            if (root.kind != Root::Kind::kKeep) continue;
+            Bands& bands = *data_.stores[index(root.store)];
+            for (int b = bands.first_band(); b < bands.end_band(); ++b)
+                if (!bands.allocated(b) && !intersect(bands.rect(b), rect).empty()) bands.allocate(b, false);
+        }
+    }
+}
+
+std::optional<Job> SweepRun::next() {
+    start_rows();
+    if (!encodes_.empty()) {
+        const Job job = encodes_.front();
+        encodes_.pop_front();
+        return job;
+    }
+    if (auto job = next_tile()) return job;
+    if (next_decode_ == decodes_.size()) return std::nullopt;
+    const auto& [due, job] = decodes_[next_decode_];
+    if (due >= last_open_row() && !rows_.empty()) return std::nullopt;
+    ++next_decode_;
+    Bands& bands = *data_.stores[index(job.which)];
+    if (!bands.allocated(job.row)) bands.allocate(job.row, false);
+    return job;
+}
+
+std::optional<Job> SweepRun::next_tile() {
+    const int columns = sweep_.end_column() - sweep_.first_column();
+    for (int r = lowest_row_; r < last_open_row(); ++r) {
+        Row& row = rows_[index(r)];
+        if (row.bands_missing > 0 || row.tiles_started == columns) continue;
+        return Job{Job::Kind::kTile, 0, r, row.tiles_started++};
+    }
+    return std::nullopt;
+}
+
+void SweepRun::run(const Job& job, TileWorker& worker) {
+    switch (job.kind) {
+        case Job::Kind::kDecode: run_decode(job); break;
+        case Job::Kind::kTile: run_tile(job, worker); break;
+        case Job::Kind::kEncode: run_encode(job); break;
+        default: break;
+    }
+}
+
+void SweepRun::run_decode(const Job& job) const {
+    const Store& store = plan_.stores[index(job.which)];
+    const Op& op = plan_.frame.ops[index(store.source_op)];
+    const Bands& bands = *data_.stores[index(job.which)];
+    std::vector<Plane> planes(op.source->header().groups[store.group].channels.size());
+    for (std::size_t i = 0; i < store.values.size(); ++i)
+        planes[op.source_channel[index(store.values[i].output)]] = bands.plane(job.row, i);
+    try {
+        op.source->read_chunk(store.group, job.column, job.row, planes);
+    } catch (const Failure& f) {
+        Error e = f.error();
+        if (e.node.empty()) e.node = fmt::format("{}, frame {}", op.title, op.frame);
+        throw Failure(std::move(e));
+    }
+}
+
+void SweepRun::run_tile(const Job& job, TileWorker& worker) {
+    const Rect tile = sweep_.tile(sweep_.first_column() + job.column, sweep_.first_row() + job.row);
+    TileResult result = worker.compute(plan_, sweep_, data_, tile);
+    const int columns = sweep_.end_column() - sweep_.first_column();
+    for (Fold& f : folds_) fold(f, job.row * columns + job.column, std::move(result.partials[index(f.root)]));
+    const std::lock_guard lock(count_mutex_);
+    for (const Output& out : outputs_) overflowed_[index(out.sink)] += result.overflowed[index(out.root)];
+}
+
+// In row-major order of the tiles, whatever the order in which they were computed.
+void SweepRun::fold(Fold& f, int tile, std::unique_ptr<Memory> partial) {
+    const int op = sweep_.roots[index(f.root)].op;
+    const Reduction& reduction = *plan_.frame.ops[index(op)].operation->reduction();
+    const std::lock_guard lock(fold_mutex_);
+    f.waiting.emplace(tile, std::move(partial));
+    for (auto it = f.waiting.begin(); it != f.waiting.end() && it->first == f.next;
+         it = f.waiting.erase(it), ++f.next)
+        if (it->second) reduction.fold(*data_.reductions[index(op)], *it->second);
+}
+
+void SweepRun::run_encode(const Job& job) {
+    Output& out = outputs_[index(job.which)];
+    Bands& bands = *data_.sinks[index(out.sink)];
+    const int band = bands.first_band() + job.row;
+    std::vector<Plane> planes;
+    if (!bands.allocated(band)) bands.allocate(band, true);
+    for (std::size_t i = 0; i < bands.types().size(); ++i) planes.push_back(bands.plane(band, i));
+    EncodedChunk chunk = sinks_[index(out.sink)]->encode(job.row, planes);
+    const std::lock_guard lock(commit_mutex_);
+    out.encoded[index(job.row)] = std::move(chunk);
+    out.ready[index(job.row)] = true;
+    commit_ready(out);
+}
+
+void SweepRun::commit_ready(Output& out) {
+    for (; index(out.next_commit) < out.ready.size() && out.ready[index(out.next_commit)]; ++out.next_commit)
+        sinks_[index(out.sink)]->commit(std::move(out.encoded[index(out.next_commit)]));
+}
+
+void SweepRun::completed(const Job& job) {
+    switch (job.kind) {
+        case Job::Kind::kDecode: {
+            --decodes_left_;
+            const Store& store = plan_.stores[index(job.which)];
+            const auto read = std::ranges::find(reads_, job.which, &Read::store);
+            if (--read->waiting[index(job.row - store.first_band())] > 0) break;
+            for (std::size_t r = 0; r < rows_.size(); ++r)
+                if (!intersect(store.band(job.row), row_needs_[r][index(job.which)]).empty())
+                    --rows_[r].bands_missing;
+            break;
+        }
+        case Job::Kind::kTile:
+            if (--rows_[index(job.row)].tiles_left == 0) row_done(job.row);
+            break;
+        case Job::Kind::kEncode: {
+            Output& out = outputs_[index(job.which)];
+            Bands& bands = *data_.sinks[index(out.sink)];
+            bands.release(bands.first_band() + job.row, true);
+            --out.chunks_left;
+            break;
+        }
+        default: break;
+    }
+}
+
+void SweepRun::row_done(int row) {
+    release_bands(row);
+    for (Output& out : outputs_) chunk_row_done(out, row);
+    while (index(lowest_row_) < rows_.size() && rows_[index(lowest_row_)].tiles_left == 0) ++lowest_row_;
+}
+
+void SweepRun::release_bands(int row) {
+    for (std::size_t s = 0; s < plan_.stores.size(); ++s) {
+        const Store& store = plan_.stores[s];
+        if (store.last_sweep != index_ || row_needs_[index(row)][s].empty()) continue;
+        for (int b = store.first_band(); b < store.end_band(); ++b) {
+            if (intersect(store.band(b), row_needs_[index(row)][s]).empty()) continue;
+            if (--users_[s][index(b - store.first_band())] == 0)
+                data_.stores[s]->release(b, store.first_sweep == index_);
+        }
+    }
+}
+
+void SweepRun::chunk_row_done(Output& output, int row) {
+    const Bands& bands = *data_.sinks[index(output.sink)];
+    const Rect rect = row_rect(row);
+    for (int c = 0; c < static_cast<int>(output.rows_missing.size()); ++c) {
+        if (intersect(bands.rect(bands.first_band() + c), rect).empty()) continue;
+        if (--output.rows_missing[index(c)] == 0)
+            encodes_.push_back({Job::Kind::kEncode, static_cast<int>(&output - outputs_.data()), c, 0});
+    }
+}
+
+bool SweepRun::done() const {
+    return decodes_left_ == 0 && index(lowest_row_) == rows_.size() &&
+           std::ranges::all_of(outputs_, [](const Output& o) { return o.chunks_left == 0; });
+}
+
+}  // namespace keyline
