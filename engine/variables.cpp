@@ -134,9 +134,12 @@ Value frame_value(int frame, const Place& place) {
 
 // As it stands inside a longer text; nothing for what can't.
 std::optional<std::string> as_text(const Value& value) {
-    if (value.is(Value::Kind::kString) || value.is(Value::Kind::kNumber)) return value.text;
-    if (value.is(Value::Kind::kBool)) return value.boolean ? "true" : "false";
-    return std::nullopt;
+    switch (value.kind) {
+        case Value::Kind::kString: return value.text;
+        case Value::Kind::kNumber: return value.text.empty() ? fmt::format("{}", value.number) : value.text;
+        case Value::Kind::kBool: return value.boolean ? "true" : "false";
+        default: return std::nullopt;
+    }
 }
 
 // The kind that a variable is declared with; "${other}" has the other's.
@@ -234,7 +237,7 @@ std::optional<Value> Variables::Replacer::join(const std::vector<Piece>& pieces,
         if (!text) out.reset();
         if (!text || !out) continue;  // the other pieces may be at fault too
         out->text += *text;
-        size_ += text->size();
+        if (piece.kind != Piece::Kind::kText) size_ += text->size();
     }
     return out;
 }

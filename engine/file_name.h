@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace keyline {
+
+// A file name of a graph, in which the frame's number may stand, in folders too: as a run of '#', padded to
+// its length with zeros, as %04d, which is the same as ####, or as %d, which does not pad.  The padding
+// counts digits only: frame -7 in #### is -0007.  %% is a percent sign.  A number longer than its padding is
+// written in full.
+class FileName {
+public:
+    // `base` is the folder that a relative name is relative to; no frame is looked for in it.  Throws Failure
+    // (kGraph) for what fault() tells.
+    explicit FileName(std::string_view text, std::filesystem::path base = {});
+
+    // What is wrong with a name; nothing for a good one.
+    static std::optional<std::string> fault(std::string_view text);
+
+    bool has_frame() const;
+
+    // The path for a frame; the same for all where the name holds none.
+    std::filesystem::path at(int frame) const;
+
+    // The frames of which there is a file, in increasing order; none where the name holds no frame.  Throws
+    // Failure (kInput) for a folder that can't be listed.
+    std::vector<int> frames_on_disk() const;
+
+private:
+    // Text, and after it the frame padded to `digits`, or nothing more where there are none.
+    struct Piece {
+        std::string text;
+        std::optional<std::size_t> digits;
+    };
+    struct Parsed {
+        std::vector<Piece> pieces;
+        std::string fault;
+    };
+    static Parsed parse(std::string_view text);
+    static std::string written(const std::vector<Piece>& pieces, int frame);
+
+    std::filesystem::path base_;
+    std::vector<Piece> pieces_;
+};
+
+}  // namespace keyline
