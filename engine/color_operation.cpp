@@ -53,7 +53,8 @@ Stream convert_layers(Builder& builder, const Stream& stream, const ColorTransfo
         Stream part = stream;
         part.channels.clear();
         for (const char* base : {"R", "G", "B", "A"})
-            if (const StreamChannel* c = stream.find(join_channel(layer, base))) part.channels.push_back({base, c->value});
+            if (const StreamChannel* c = stream.find(join_channel(layer, base)))
+                part.channels.push_back({base, c->value});
         if (!part.find("R") || !part.find("G") || !part.find("B")) continue;
         const Stream converted = convert_colour(builder, part, transform);
         for (const StreamChannel& c : converted.channels) result.set(join_channel(layer, c.name), c.value);

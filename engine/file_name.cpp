@@ -61,7 +61,7 @@ std::vector<std::string> entries_of(const std::filesystem::path& folder) {
 
 }  // namespace
 
-FileName::FileName(std::string_view text, std::filesystem::path base) : base_(std::move(base)) {
+FileName::FileName(std::string_view text, std::filesystem::path base) : text_(text), base_(std::move(base)) {
     Parsed parsed = parse(text);
     if (!parsed.fault.empty()) fail(ErrorKind::kGraph, std::move(parsed.fault));
     pieces_ = std::move(parsed.pieces);

@@ -16,6 +16,8 @@ namespace keyline {
 // written in full.
 class FileName {
 public:
+    FileName() = default;  // no file; a parameter's value before it is read
+
     // `base` is the folder that a relative name is relative to; no frame is looked for in it.  Throws Failure
     // (kGraph) for what fault() tells.
     explicit FileName(std::string_view text, std::filesystem::path base = {});
@@ -24,6 +26,7 @@ public:
     static std::optional<std::string> fault(std::string_view text);
 
     bool has_frame() const;
+    const std::string& text() const { return text_; }  // as written
 
     // The path for a frame; the same for all where the name holds none.
     std::filesystem::path at(int frame) const;
@@ -45,6 +48,7 @@ private:
     static Parsed parse(std::string_view text);
     static std::string written(const std::vector<Piece>& pieces, int frame);
 
+    std::string text_;
     std::filesystem::path base_;
     std::vector<Piece> pieces_;
 };

@@ -65,7 +65,8 @@ std::vector<ValueRef> take_channels(const Stream& stream, const Takes& takes) {
             break;
         }
         case Takes::Kind::kMatte:
-            if (const StreamChannel* c = takes.preferred ? stream.find(takes.preferred) : nullptr) return {c->value};
+            if (const StreamChannel* c = takes.preferred ? stream.find(takes.preferred) : nullptr)
+                return {c->value};
             taken = {find_matte(names)};
             break;
         case Takes::Kind::kNamed: {

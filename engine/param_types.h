@@ -135,12 +135,12 @@ struct TypeInfo {
     Kind kind = Kind::kNumber;
     bool optional = false;
     Range range{};
-    std::vector<WordInfo> words;      // kWord
-    std::size_t count = 0;            // kNumbers
-    Takes takes{};                    // kInput
-    bool leading = false;             // kInput
-    std::vector<TypeInfo> items;      // kList, kMap: one; kAnyOf: the choices
-    std::vector<FieldInfo> fields;    // kObject
+    std::vector<WordInfo> words;    // kWord
+    std::size_t count = 0;          // kNumbers
+    Takes takes{};                  // kInput
+    bool leading = false;           // kInput
+    std::vector<TypeInfo> items;    // kList, kMap: one; kAnyOf: the choices
+    std::vector<FieldInfo> fields;  // kObject
 
     static TypeInfo number(Range range);
     static TypeInfo integer(Range range);

@@ -266,7 +266,7 @@ struct Codec<std::optional<T>> {
 
 // A fixed number of numbers.
 template <class N, std::size_t Count>
-    requires std::is_arithmetic_v<N>
+requires std::is_arithmetic_v<N>
 struct Codec<std::array<N, Count>> {
     using T = std::array<N, Count>;
     static bool accepts(const Value& v) { return v.is(Value::Kind::kArray) && v.items.size() == Count; }

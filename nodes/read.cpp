@@ -9,20 +9,22 @@
 
 namespace keyline {
 
-namespace {
-
-enum class Missing { kError, kBlack, kHold };
-
 constexpr auto words(NanPolicy) {
-    return std::array{Word<NanPolicy>{"mend", NanPolicy::kMend, "NaN becomes 0 and infinity the largest value, with a warning"},
+    return std::array{Word<NanPolicy>{"mend", NanPolicy::kMend,
+                                      "NaN becomes 0 and infinity the largest value, with a warning"},
                       Word<NanPolicy>{"keep", NanPolicy::kKeep, "as they are"},
                       Word<NanPolicy>{"error", NanPolicy::kError, "the frame fails"}};
 }
 
+namespace {
+
+enum class Missing { kError, kBlack, kHold };
+
 constexpr auto words(Missing) {
-    return std::array{Word<Missing>{"error", Missing::kError, "the frame fails"},
-                      Word<Missing>{"black", Missing::kBlack, "zeros, with the windows and channels of the nearest frame"},
-                      Word<Missing>{"hold", Missing::kHold, "the nearest earlier frame, else the nearest later"}};
+    return std::array{
+        Word<Missing>{"error", Missing::kError, "the frame fails"},
+        Word<Missing>{"black", Missing::kBlack, "zeros, with the windows and channels of the nearest frame"},
+        Word<Missing>{"hold", Missing::kHold, "the nearest earlier frame, else the nearest later"}};
 }
 
 // An image file, or the frames of a sequence.
@@ -41,17 +43,21 @@ struct Read {
         static constexpr auto fields = declare(
             field(&Params::file, "file", "The file; a run of # stands for the frame number.").required(),
             field(&Params::colorspace, "colorspace",
-                  "The OpenColorIO space of the file: every layer with R G B is converted to scene_linear. Empty leaves samples alone."),
-            field(&Params::part, "part", "One part of a multi-part file, by name or index; empty takes all parts of the view."),
+                  "The OpenColorIO space of the file: every layer with R G B is converted to scene_linear. "
+                  "Empty leaves samples alone."),
+            field(&Params::part, "part",
+                  "One part of a multi-part file, by name or index; empty takes all parts of the view."),
             field(&Params::view, "view", "The view of a multi-view file; empty takes its default."),
-            field(&Params::frame, "frame", "Another frame than the one rendered: a number, or an offset as \"-1\"."),
+            field(&Params::frame, "frame",
+                  "Another frame than the one rendered: a number, or an offset as \"-1\"."),
             field(&Params::nan, "nan", "What becomes of NaN and infinite samples."),
             field(&Params::missing, "missing", "What to do where the file of a frame is not there."));
     };
 
     static void check(const Params& p, Check& c) {
         if (const auto* text = std::get_if<std::string>(&p.frame); text && !text->empty() && !offset(*text))
-            c.error("frame", fmt::format("'frame' is {}; it must be a number, or an offset as \"-1\"", in_quotes(*text)));
+            c.error("frame", fmt::format("'frame' is {}; it must be a number, or an offset as \"-1\"",
+                                         in_quotes(*text)));
     }
 
     explicit Read(const Params& p) : params(p) {}
@@ -82,7 +88,8 @@ private:
     std::shared_ptr<const ImageSource> open(Context& context) const {
         const int frame = wanted_frame(context.frame());
         const std::filesystem::path path = params.file.at(frame);
-        if (params.missing == Missing::kError || std::filesystem::exists(path)) return open_image(path, options());
+        if (params.missing == Missing::kError || std::filesystem::exists(path))
+            return open_image(path, options());
         const std::optional<int> other = stand_in(frame);
         if (!other) return open_image(path, options());
         auto source = std::shared_ptr<const ImageSource>(open_image(params.file.at(*other), options()));

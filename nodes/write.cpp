@@ -10,19 +10,22 @@
 
 namespace keyline {
 
-namespace {
-
 constexpr auto words(Depth) {
-    return std::array{Word<Depth>{"auto", Depth::kAuto, "the file's own type for what passed untouched, else half, or the best the format holds"},
-                      Word<Depth>{"half", Depth::kHalf, "16-bit float"},
-                      Word<Depth>{"float", Depth::kFloat, "32-bit float"},
-                      Word<Depth>{"uint8", Depth::kUint8, "8 bits, 0 to 1"},
-                      Word<Depth>{"uint16", Depth::kUint16, "16 bits, 0 to 1"}};
+    return std::array{
+        Word<Depth>{"auto", Depth::kAuto,
+                    "the file's own type for what passed untouched, else half, or the best the format holds"},
+        Word<Depth>{"half", Depth::kHalf, "16-bit float"},
+        Word<Depth>{"float", Depth::kFloat, "32-bit float"},
+        Word<Depth>{"uint8", Depth::kUint8, "8 bits, 0 to 1"},
+        Word<Depth>{"uint16", Depth::kUint16, "16 bits, 0 to 1"}};
 }
+
+namespace {
 
 // An image file, or the frames of a sequence.
 struct Write {
-    static constexpr Info info{"write", "Writes an image: OpenEXR, or by the extension anything that OpenImageIO writes."};
+    static constexpr Info info{
+        "write", "Writes an image: OpenEXR, or by the extension anything that OpenImageIO writes."};
 
     struct Params {
         Input in;
@@ -40,8 +43,10 @@ struct Write {
             field(&Params::depth, "depth", "The type of the samples."),
             field(&Params::compression, "compression", "The compression, by the format's own name for it."),
             field(&Params::colorspace, "colorspace",
-                  "The OpenColorIO space of the file: every layer with R G B is converted to it from scene_linear. Empty leaves samples alone."),
-            input(&Params::layers, "layers", "Further inputs by layer name, written as that layer's channels."));
+                  "The OpenColorIO space of the file: every layer with R G B is converted to it from "
+                  "scene_linear. Empty leaves samples alone."),
+            input(&Params::layers, "layers",
+                  "Further inputs by layer name, written as that layer's channels."));
     };
 
     explicit Write(const Params& p) : params(p) {}
@@ -50,7 +55,8 @@ struct Write {
         SinkRequest request;
         request.stream = chosen(builder, with_layers(builder));
         if (!params.colorspace.empty())
-            request.stream = convert_layers(builder, request.stream, builder.colors().convert("scene_linear", params.colorspace));
+            request.stream = convert_layers(builder, request.stream,
+                                            builder.colors().convert("scene_linear", params.colorspace));
         request.file = params.file.at(builder.frame());
         request.spec = spec(builder, request.stream);
         request.create = [file = request.file](const SinkSpec& s) { return create_image(file, s); };
@@ -68,8 +74,9 @@ private:
             for (const StreamChannel& c : more.channels) {
                 const std::string name = join_channel(layer, c.name);
                 if (stream.find(name))
-                    builder.bad_parameter("layers", fmt::format("the channel {} would be written twice", in_quotes(name)),
-                                          "give the layer another name");
+                    builder.bad_parameter(
+                        "layers", fmt::format("the channel {} would be written twice", in_quotes(name)),
+                        "give the layer another name");
                 stream.set(name, c.value);
             }
         }
@@ -85,7 +92,8 @@ private:
             for (std::size_t i = 0; i < names.size(); ++i)
                 if (names[i] == wanted || split_channel(names[i]).layer == wanted) kept.insert(i);
             if (kept.size() == before && std::ranges::find(names, wanted) == names.end())
-                builder.bad_parameter("channels", fmt::format("there is no channel or layer {}", in_quotes(wanted)),
+                builder.bad_parameter("channels",
+                                      fmt::format("there is no channel or layer {}", in_quotes(wanted)),
                                       did_you_mean(wanted, names));
         }
         Stream out = all;
@@ -101,7 +109,8 @@ private:
         s.metadata = still_true(*stream.metadata, stream);
         s.depth = params.depth;
         s.compression = params.compression;
-        for (const StreamChannel& c : stream.channels) s.channels.push_back({c.name, type_of(builder, c.value)});
+        for (const StreamChannel& c : stream.channels)
+            s.channels.push_back({c.name, type_of(builder, c.value)});
         return s;
     }
 
@@ -116,7 +125,9 @@ private:
         for (const Attribute& a : metadata.attributes()) {
             if (!a.name.starts_with("cryptomatte/") || !a.name.ends_with("/name")) continue;
             const auto* name = std::get_if<std::string>(&a.value);
-            const bool there = name && std::ranges::any_of(stream.channels, [&](const StreamChannel& c) { return c.name.starts_with(*name); });
+            const bool there = name && std::ranges::any_of(stream.channels, [&](const StreamChannel& c) {
+                                   return c.name.starts_with(*name);
+                               });
             if (!there) gone.push_back(a.name.substr(0, a.name.size() - 4));
         }
         for (const std::string& prefix : gone) {

@@ -47,11 +47,14 @@ std::size_t mend_row(typename Format::Bits* row, int n) {
 
 std::size_t count_inexact(const uint32_t* row, int n) {
     std::size_t count = 0;
-    for (int i = 0; i < n; ++i) count += static_cast<double>(static_cast<float>(row[i])) != static_cast<double>(row[i]) ? 1 : 0;
+    for (int i = 0; i < n; ++i)
+        count += static_cast<double>(static_cast<float>(row[i])) != static_cast<double>(row[i]) ? 1 : 0;
     return count;
 }
 
-std::string plural(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+std::string plural(std::size_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
 
 class Mended final : public ImageSource {
 public:
@@ -70,10 +73,12 @@ public:
         source_->read_chunk(group, column, row, planes);
         const ChannelGroup& g = header().groups[group];
         const Rect chunk = g.chunk(column, row);
-        const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(g.columns()) + static_cast<std::size_t>(column);
+        const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(g.columns()) +
+                           static_cast<std::size_t>(column);
         for (std::size_t c = 0; c < planes.size(); ++c) {
             if (!planes[c].data) continue;
-            const bool first = !seen_[group][index * planes.size() + c].exchange(true, std::memory_order_relaxed);
+            const bool first =
+                !seen_[group][index * planes.size() + c].exchange(true, std::memory_order_relaxed);
             mend(planes[c], intersect(chunk, planes[c].rect), g.channels[c].name, first);
         }
     }
@@ -82,7 +87,8 @@ public:
         std::vector<std::string> out = source_->findings();
         if (mended_ > 0) out.push_back(plural(mended_, "NaN or infinite sample") + " mended");
         if (inexact_ > 0)
-            out.push_back(plural(inexact_, "uint sample") + " above 2^24 rounded wherever something is computed from them");
+            out.push_back(plural(inexact_, "uint sample") +
+                          " above 2^24 rounded wherever something is computed from them");
         return out;
     }
 
@@ -93,16 +99,22 @@ private:
         for (int y = rect.y0; y < rect.y1; ++y) {
             std::byte* row = plane.at(rect.x0, y);
             switch (plane.type) {
-                case SampleType::kHalf: count += mend_row<Half>(reinterpret_cast<uint16_t*>(row), rect.width()); break;
-                case SampleType::kFloat: count += mend_row<Float>(reinterpret_cast<uint32_t*>(row), rect.width()); break;
-                case SampleType::kUint: count += count_inexact(reinterpret_cast<const uint32_t*>(row), rect.width()); break;
+                case SampleType::kHalf:
+                    count += mend_row<Half>(reinterpret_cast<uint16_t*>(row), rect.width());
+                    break;
+                case SampleType::kFloat:
+                    count += mend_row<Float>(reinterpret_cast<uint32_t*>(row), rect.width());
+                    break;
+                case SampleType::kUint:
+                    count += count_inexact(reinterpret_cast<const uint32_t*>(row), rect.width());
+                    break;
             }
         }
         if (count == 0) return;
         if (policy_ == NanPolicy::kError && plane.type != SampleType::kUint)
             fail(ErrorKind::kInput,
-                 fmt::format("{} in channel {} at rows {} to {}", plural(count, "NaN or infinite sample"), in_quotes(channel),
-                             rect.y0, rect.y1 - 1),
+                 fmt::format("{} in channel {} at rows {} to {}", plural(count, "NaN or infinite sample"),
+                             in_quotes(channel), rect.y0, rect.y1 - 1),
                  "set \"nan\" to \"mend\" or \"keep\" to go on");
         if (first) (plane.type == SampleType::kUint ? inexact_ : mended_) += count;
     }
@@ -124,7 +136,8 @@ public:
             if (!plane.data) continue;
             const Rect rect = intersect(header_.groups[group].chunk(column, row), plane.rect);
             for (int y = rect.y0; y < rect.y1; ++y)
-                std::memset(plane.at(rect.x0, y), 0, sample_size(plane.type) * static_cast<std::size_t>(rect.width()));
+                std::memset(plane.at(rect.x0, y), 0,
+                            sample_size(plane.type) * static_cast<std::size_t>(rect.width()));
         }
     }
 
