@@ -211,6 +211,7 @@ std::vector<std::size_t> rgba_order(std::span<const std::string> names) {
     }
     std::sort(ranks.begin(), ranks.end());
     std::vector<std::size_t> out;
+    out.reserve(ranks.size());
     for (const auto& rank : ranks) out.push_back(static_cast<std::size_t>(rank.back()));
     return out;
 }

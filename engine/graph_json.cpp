@@ -25,8 +25,8 @@ public:
 // them from token to token knows where each one stands; the parser itself does not tell.
 class Builder {
 public:
-    Builder(std::string_view text, const std::string& source, bool option)
-        : source_(source), option_(option), token_(text), cursor_(text) {}
+    Builder(std::string_view text, std::string source, bool option)
+        : source_(std::move(source)), option_(option), token_(text), cursor_(text) {}
 
     Value take() { return std::move(root_); }
 

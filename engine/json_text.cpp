@@ -118,8 +118,7 @@ JsonFault single_quoted(const TextCursor& at) {
 }
 
 bool is_number_like(std::string_view word) {
-    const std::size_t sign = word.front() == '-' || word.front() == '+' ? 1 : 0;
-    return sign == 1 || word.front() == '.' || is_digit(word.front());
+    return is_digit(word.front()) || word.front() == '-' || word.front() == '+' || word.front() == '.';
 }
 
 JsonFault fault_in_word(const TextCursor& at, std::string_view word) {
