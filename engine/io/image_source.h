@@ -39,7 +39,8 @@ struct ImageHeader {
     Rect data_window;  // the union of the groups' windows; outside its own group's a channel is 0
     std::vector<ChannelGroup> groups;
     Metadata metadata;
-    std::string format;  // "openexr", "png", …
+    std::string format;          // "openexr", "png", …
+    std::filesystem::path file;  // as it was opened
 };
 
 // An open image.  Its header was read and found sound; pixels are decoded on demand.
