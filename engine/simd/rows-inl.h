@@ -32,14 +32,33 @@ HWY_INLINE Floats with_one_nan(Floats v) {
     return hn::IfThenElse(hn::IsNaN(v), hn::Set(kFloat, std::numeric_limits<float>::quiet_NaN()), v);
 }
 
+using DoubleTag = hn::ScalableTag<double>;
+using Doubles = hn::Vec<DoubleTag>;
+constexpr DoubleTag kDouble;
+
+// As many floats as there are doubles in a vector.
+constexpr hn::Rebind<float, DoubleTag> kFewFloats;
+using FewFloats = hn::Vec<decltype(kFewFloats)>;
+
+// To float, with one NaN.  Highway's portable conversion ends at the largest float where the others go on to
+// infinity, so the largest counts as infinite everywhere.
+HWY_INLINE FewFloats rounded(Doubles v) {
+    const auto f = hn::DemoteTo(kFewFloats, v);
+    const auto largest = hn::Set(kFewFloats, std::numeric_limits<float>::max());
+    const auto infinity = hn::Set(kFewFloats, std::numeric_limits<float>::infinity());
+    const auto nan = hn::Set(kFewFloats, std::numeric_limits<float>::quiet_NaN());
+    const auto extended = hn::IfThenElse(hn::Ge(hn::Abs(f), largest), hn::CopySign(infinity, f), f);
+    return hn::IfThenElse(hn::IsNaN(f), nan, extended);
+}
+
 struct Whole {
-    template <class T>
-    HWY_INLINE hn::Vec<hn::ScalableTag<T>> load(const T* row, int i) const {
-        return hn::LoadU(hn::ScalableTag<T>(), row + i);
+    template <class D, class T>
+    HWY_INLINE hn::Vec<D> load(D d, const T* row, int i) const {
+        return hn::LoadU(d, row + i);
     }
-    template <class T>
-    HWY_INLINE void store(hn::Vec<hn::ScalableTag<T>> value, T* row, int i) const {
-        hn::StoreU(value, hn::ScalableTag<T>(), row + i);
+    template <class D, class T>
+    HWY_INLINE void store(hn::Vec<D> value, D d, T* row, int i) const {
+        hn::StoreU(value, d, row + i);
     }
 };
 
@@ -48,40 +67,42 @@ struct Whole {
 struct Part {
     int first, last, count;
 
-    template <class T>
-    HWY_INLINE hn::Vec<hn::ScalableTag<T>> load(const T* row, int i) const {
-        HWY_ALIGN T lanes[kLanes];
-        for (int lane = 0; lane < kLanes; ++lane) lanes[lane] = row[HWY_MIN(HWY_MAX(i + lane, first), last)];
-        return hn::Load(hn::ScalableTag<T>(), lanes);
+    template <class D, class T>
+    HWY_INLINE hn::Vec<D> load(D d, const T* row, int i) const {
+        constexpr int kCount = static_cast<int>(hn::MaxLanes(D()));
+        HWY_ALIGN T lanes[kCount];
+        for (int lane = 0; lane < kCount; ++lane) lanes[lane] = row[HWY_MIN(HWY_MAX(i + lane, first), last)];
+        return hn::Load(d, lanes);
     }
-    template <class T>
-    HWY_INLINE void store(hn::Vec<hn::ScalableTag<T>> value, T* row, int i) const {
-        HWY_ALIGN T lanes[kLanes];
-        hn::Store(value, hn::ScalableTag<T>(), lanes);
+    template <class D, class T>
+    HWY_INLINE void store(hn::Vec<D> value, D d, T* row, int i) const {
+        HWY_ALIGN T lanes[hn::MaxLanes(D())];
+        hn::Store(value, d, lanes);
         for (int lane = 0; lane < count; ++lane) row[i + lane] = lanes[lane];
     }
 };
 
-// Calls body(memory, i) so that every pixel i … of a row of n is covered, some twice: the last whole vector
-// reaches back over the one before it.  The body looks up to `reach` pixels to both sides, at most a vector's
-// length; where a row ends before (`margin`), its end pixels are repeated.
-template <class Body>
-HWY_INLINE void for_each_vector(int n, int reach, Margin margin, const Body& body) {
+// Calls body(memory, i) for vectors of D at i = …, so that every pixel of a row of n is covered, some twice:
+// the last whole vector reaches back over the one before it.  The body looks up to `reach` pixels to both
+// sides, at most a vector's length; where the row ends before (`margin`), its end pixels are repeated.
+template <class D, class Body>
+HWY_INLINE void for_each_vector(D, int n, int reach, Margin margin, const Body& body) {
+    constexpr int kCount = static_cast<int>(hn::MaxLanes(D()));
     const int first = -margin.before, last = n - 1 + margin.after;
     const int begin = HWY_MAX(0, first + reach), end = HWY_MIN(n, last + 1 - reach);
     const auto in_part = [&](int from, int to) HWY_ATTR {
-        for (int i = from; i < to; i += kLanes) body(Part{first, last, HWY_MIN(kLanes, to - i)}, i);
+        for (int i = from; i < to; i += kCount) body(Part{first, last, HWY_MIN(kCount, to - i)}, i);
     };
-    if (end - begin < kLanes) return in_part(0, n);
+    if (end - begin < kCount) return in_part(0, n);
     in_part(0, begin);
-    for (int i = begin; i < end; i += kLanes) body(Whole(), HWY_MIN(i, end - kLanes));
+    for (int i = begin; i < end; i += kCount) body(Whole(), HWY_MIN(i, end - kCount));
     in_part(end, n);
 }
 
 // For bodies that look at their own pixel alone.
-template <class Body>
-HWY_INLINE void for_each_vector(int n, const Body& body) {
-    for_each_vector(n, 0, {0, 0}, body);
+template <class D, class Body>
+HWY_INLINE void for_each_vector(D d, int n, const Body& body) {
+    for_each_vector(d, n, 0, {0, 0}, body);
 }
 
 }  // namespace keyline::simd::HWY_NAMESPACE
