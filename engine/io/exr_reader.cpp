@@ -34,6 +34,7 @@ public:
         if (groups_.empty())
             fail(ErrorKind::kInput, fmt::format("{}: no channels in the view that is wanted", file_.name()));
         header_.format = "openexr";
+        header_.file = file;
     }
 
     const ImageHeader& header() const override { return header_; }
