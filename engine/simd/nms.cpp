@@ -60,7 +60,7 @@ void suppress(const Rows3& magnitude, const float* dx_row, const float* dy_row, 
             for (float* row : {out.dx, out.dy, out.magnitude}) memory.store(zero, kFloat, row, i);
             return;
         }
-        const auto dx = memory.load(kFloat, dx_row, i), dy = memory.load(kFloat, dy_row, i);
+        const auto dx = memory.load_own(kFloat, dx_row, i), dy = memory.load_own(kFloat, dy_row, i);
         const auto kept = hn::And(positive, stands_out(memory, magnitude, dx, dy, m, i));
         memory.store(hn::IfThenElseZero(kept, dx), kFloat, out.dx, i);
         memory.store(hn::IfThenElseZero(kept, dy), kFloat, out.dy, i);
