@@ -14,6 +14,9 @@ namespace keyline::simd {
 
 constexpr int padded(int n) { return (n + 31) / 16 * 16; }
 
+// For words of bits: up to whole vectors, but not beyond.
+constexpr int whole_vectors(int words) { return (words + 7) / 8 * 8; }
+
 // How many windows of 1, 2, 4, … pixels are no longer than `length`.
 constexpr int window_levels(int length) { return std::bit_width(static_cast<unsigned>(length)); }
 
@@ -73,10 +76,10 @@ struct MaskLayout {
           looked_at(intersect(in.rect, grow(out, {shape[0], reach_y}))),
           segment((looked_at.width() + 63) / 64),
           lead(shape[0] / 64 + 1),
-          used(padded(lead + segment)),
+          used(whole_vectors(lead + segment)),
           line(used + padded(out.width() / 64 + 3 * lead)),
           levels(window_levels(2 * shape[0] + 1)),
-          pitch(padded(out.width() / 64 + 1)),
+          pitch(whole_vectors((out.width() + 63) / 64)),
           height(out.height()) {}
 
     std::size_t input_words() const {

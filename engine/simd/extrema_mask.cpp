@@ -49,32 +49,42 @@ HWY_INLINE bool find_values(const float* in, int n, TwoValues& values, uint64_t*
     return two;
 }
 
-// The bits of a line from bit `offset` on, as the words from word i on.
-HWY_INLINE hn::Vec<WordTag> bits_from(const uint64_t* line, int offset, int i) {
-    const uint64_t* word = line + offset / kWordBits + i;
-    const int shift = offset % kWordBits;
-    const auto low = hn::ShiftRightSame(hn::LoadU(kWords, word), shift);
-    const auto high = hn::ShiftLeftSame(hn::ShiftLeft<1>(hn::LoadU(kWords, word + 1)), kWordBits - 1 - shift);
-    return hn::Or(low, high);
-}
+// A line of bits read from some bit on.
+class BitReader {
+public:
+    HWY_INLINE BitReader(const uint64_t* line, int offset)
+        : words_(line + offset / kWordBits), shift_(offset % kWordBits) {}
+
+    // The words from word i on.
+    HWY_INLINE hn::Vec<WordTag> load(int i) const {
+        const auto low = hn::ShiftRightSame(hn::LoadU(kWords, words_ + i), shift_);
+        const auto next = hn::ShiftLeft<1>(hn::LoadU(kWords, words_ + i + 1));
+        return hn::Or(low, hn::ShiftLeftSame(next, kWordBits - 1 - shift_));
+    }
+
+private:
+    const uint64_t* words_;
+    int shift_;
+};
 
 // Line k of `lines`: where one of the 2^k bits from there on is set in line 0.
-HWY_INLINE void build_levels(uint64_t* lines, const MaskLayout& layout, int words) {
-    for (int k = 1; k < layout.levels; ++k) {
-        uint64_t* next = lines + layout.line;
-        for (int i = 0; i < words; i += kWordLanes)
-            hn::StoreU(hn::Or(hn::LoadU(kWords, lines + i), bits_from(lines, 1 << (k - 1), i)), kWords,
-                       next + i);
-        lines = next;
+HWY_INLINE void build_levels(uint64_t* lines, const MaskLayout& layout) {
+    for (int k = 1; k < layout.levels; ++k, lines += layout.line) {
+        const BitReader ahead(lines, 1 << (k - 1));
+        for (int i = 0; i < layout.used; i += kWordLanes)
+            hn::StoreU(hn::Or(hn::LoadU(kWords, lines + i), ahead.load(i)), kWords, lines + layout.line + i);
     }
 }
 
 // Sets in the rows a and b, which may be the same, the bits set in either of two windows.
-HWY_INLINE void raise_rows(const uint64_t* line, int left, int right, int words, uint64_t* a, uint64_t* b) {
+HWY_INLINE void raise_rows(const BitReader& left, const BitReader& right, int words, uint64_t* a,
+                           uint64_t* b) {
     for (int i = 0; i < words; i += kWordLanes) {
-        const auto window = hn::Or(bits_from(line, left, i), bits_from(line, right, i));
-        hn::StoreU(hn::Or(hn::LoadU(kWords, a + i), window), kWords, a + i);
-        hn::StoreU(hn::Or(hn::LoadU(kWords, b + i), window), kWords, b + i);
+        const auto window = hn::Or(left.load(i), right.load(i));
+        const auto raised_a = hn::Or(hn::LoadU(kWords, a + i), window);
+        const auto raised_b = hn::Or(hn::LoadU(kWords, b + i), window);
+        hn::StoreU(raised_a, kWords, a + i);
+        hn::StoreU(raised_b, kWords, b + i);
     }
 }
 
@@ -84,21 +94,26 @@ HWY_INLINE void spread_row(const uint64_t* lines, const MaskLayout& layout, int 
     const auto row = [&](int at) { return sums + static_cast<std::ptrdiff_t>(at) * layout.pitch; };
     const int column =
         layout.lead * kWordBits + out.x0 - layout.looked_at.x0;  // the output's first, in a line
-    const int words = out.width() / kWordBits + 1;
+    const int words = (out.width() + kWordBits - 1) / kWordBits;
     for_each_distance(y, layout.height, layout.reach_y, [&](int d, int a, int b) HWY_ATTR {
         const int w = layout.shape[static_cast<std::size_t>(d)], length = 2 * w + 1;
         const int level = window_levels(length) - 1, left = column - w;
         const uint64_t* line = lines + static_cast<std::ptrdiff_t>(level) * layout.line;
-        raise_rows(line, left, left + length - (1 << level), words, row(a), row(b));
+        const BitReader from_left(line, left), from_right(line, left + length - (1 << level));
+        raise_rows(from_left, from_right, words, row(a), row(b));
     });
 }
 
-// One row of the input as line 0: bits as they are, or the others of those that exist.
-HWY_INLINE void place_row(const uint64_t* bits, const MaskLayout& layout, bool invert, uint64_t* line) {
+// One row of the input as line 0: bits as they are, or the others of those that exist.  False where none is
+// set.
+HWY_INLINE bool place_row(const uint64_t* bits, const MaskLayout& layout, bool invert, uint64_t* line) {
+    uint64_t any = 0;
     for (int word = 0; word < layout.segment; ++word) {
         const int count = HWY_MIN(kWordBits, layout.looked_at.width() - word * kWordBits);
         line[layout.lead + word] = invert ? ~bits[word] & first_bits(count) : bits[word];
+        any |= line[layout.lead + word];
     }
+    return any != 0;
 }
 
 bool mask(const View& in, const MutView& out, const MaskLayout& layout, Extremum which, uint64_t* workspace) {
@@ -120,8 +135,8 @@ bool mask(const View& in, const MutView& out, const MaskLayout& layout, Extremum
     std::fill_n(lines, layout.line_words() + layout.output_words(), 0);
     bits = workspace;
     for (int y = area.y0; y < area.y1; ++y, bits += layout.segment) {
-        place_row(bits, layout, invert, lines);
-        build_levels(lines, layout, layout.used);
+        if (!place_row(bits, layout, invert, lines)) continue;
+        build_levels(lines, layout);
         spread_row(lines, layout, y - out.rect.y0, out.rect, sums);
     }
     const auto greater = order.value(hn::Max(first, second)), less = order.value(hn::Min(first, second));

@@ -28,10 +28,19 @@ HWY_INLINE void build_levels(int32_t* lines, const ShapeLayout& layout, int n) {
 
 // Raises the rows a and b, n long, to the maximum of two lines; a and b may be the same.
 HWY_INLINE void raise_rows(const int32_t* left, const int32_t* right, int n, int32_t* a, int32_t* b) {
+    if (a == b) {
+        for (int i = 0; i < n; i += kLanes) {
+            const auto window = hn::Max(hn::LoadU(kInt, left + i), hn::LoadU(kInt, right + i));
+            hn::StoreU(hn::Max(hn::LoadU(kInt, a + i), window), kInt, a + i);
+        }
+        return;
+    }
     for (int i = 0; i < n; i += kLanes) {
         const auto window = hn::Max(hn::LoadU(kInt, left + i), hn::LoadU(kInt, right + i));
-        hn::StoreU(hn::Max(hn::LoadU(kInt, a + i), window), kInt, a + i);
-        hn::StoreU(hn::Max(hn::LoadU(kInt, b + i), window), kInt, b + i);
+        const auto raised_a = hn::Max(hn::LoadU(kInt, a + i), window);
+        const auto raised_b = hn::Max(hn::LoadU(kInt, b + i), window);
+        hn::StoreU(raised_a, kInt, a + i);
+        hn::StoreU(raised_b, kInt, b + i);
     }
 }
 
