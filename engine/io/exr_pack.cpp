@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/io/exr_pack.h"
+
+#include "engine/error.h"
+#include "engine/simd/predictor.h"
+
+#include <cstring>
+#include <fmt/format.h>
+#include <libdeflate.h>
+#include <new>
+
+namespace keyline::exr {
+
+namespace {
+
+constexpr int kDeflateLevel = 2;
+
+// Scratch memory that PIZ wants whatever the size of a chunk.
+constexpr std::size_t kCoreTables = std::size_t{1} << 20;
+
+void check(exr_result_t result) {
+    if (result != EXR_ERR_SUCCESS)
+        fail(ErrorKind::kOutput, fmt::format("can't be packed: {}", exr_get_default_error_message(result)));
+}
+
+std::vector<SampleType> types_of(const Layout& layout) {
+    std::vector<SampleType> types;
+    for (const StoredChannel& channel : layout.channels) types.push_back(channel.type);
+    return types;
+}
+
+exr_pixel_type_t core_type(SampleType type) {
+    return type == SampleType::kHalf    ? EXR_PIXEL_HALF
+           : type == SampleType::kFloat ? EXR_PIXEL_FLOAT
+                                        : EXR_PIXEL_UINT;
+}
+
+exr_attr_box2i_t to_box(const Rect& r) {
+    exr_attr_box2i_t box = {};
+    box.min.x = r.x0;
+    box.min.y = r.y0;
+    box.max.x = r.x1 - 1;
+    box.max.y = r.y1 - 1;
+    return box;
+}
+
+}  // namespace
+
+PackContext::PackContext(const Layout& layout) {
+    exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    init.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+    init.write_fn = [](exr_const_context_t, void*, const void*, uint64_t size, uint64_t,
+                       exr_stream_error_func_ptr_t) { return static_cast<int64_t>(size); };
+    check(exr_start_write(&context_, "never written", EXR_WRITE_FILE_DIRECTLY, &init));
+    int part = 0;
+    check(exr_add_part(context_, "part", EXR_STORAGE_SCANLINE, &part));
+    const exr_attr_box2i_t display = to_box(layout.display_window), data = to_box(layout.data_window);
+    const exr_attr_v2f_t center = {};
+    check(exr_initialize_required_attr(context_, part, &display, &data, 1, &center, 1,
+                                       EXR_LINEORDER_INCREASING_Y,
+                                       static_cast<exr_compression_t>(layout.compression)));
+    for (const StoredChannel& channel : layout.channels)
+        check(exr_add_channel(context_, part, channel.name.c_str(), core_type(channel.type),
+                              EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
+    check(exr_write_header(context_));
+}
+
+PackContext::~PackContext() { exr_finish(&context_); }
+
+void Packer::FreeCompressor::operator()(libdeflate_compressor* compressor) const {
+    libdeflate_free_compressor(compressor);
+}
+
+Packer::Packer(const Layout& layout, const PackContext& context)
+    : layout_(layout),
+      context_(context),
+      block_(types_of(layout)),
+      compressor_(libdeflate_alloc_compressor(kDeflateLevel)) {
+    if (compressor_ == nullptr) throw std::bad_alloc();
+}
+
+Packer::~Packer() {
+    if (has_pipeline_) exr_encoding_destroy(context_.get(), &pipeline_);
+}
+
+void Packer::pack(const Rect& rect, std::span<const Plane> planes, std::vector<std::byte>& out) {
+    const std::span<const std::byte> bytes = compressed(rect, planes);
+    append(out, int32_t{rect.y0});
+    append(out, static_cast<int32_t>(bytes.size()));
+    out.insert(out.end(), bytes.begin(), bytes.end());
+}
+
+std::span<const std::byte> Packer::compressed(const Rect& rect, std::span<const Plane> planes) {
+    switch (layout_.compression) {
+        case Compression::kNone: gather(rect, planes); return samples_;
+        case Compression::kZip:
+        case Compression::kZips: gather(rect, planes); return deflated();
+        default: return packed_in_core(rect, planes);
+    }
+}
+
+void Packer::gather(const Rect& rect, std::span<const Plane> planes) {
+    samples_.resize(block_.bytes(rect));
+    for (std::size_t c = 0; c < planes.size(); ++c) {
+        const std::size_t bytes = static_cast<std::size_t>(rect.width()) * sample_size(planes[c].type);
+        for (int y = rect.y0; y < rect.y1; ++y)
+            std::memcpy(samples_.data() + block_.offset(rect, c, y), planes[c].at(rect.x0, y), bytes);
+    }
+}
+
+// What does not get smaller is stored as it is; the sizes tell a reader.
+std::span<const std::byte> Packer::deflated() {
+    split_.resize(samples_.size());
+    packed_.resize(samples_.size() - 1);
+    split_and_difference(samples_.data(), split_.data(), samples_.size() / 2);
+    const std::size_t n = libdeflate_zlib_compress(compressor_.get(), split_.data(), split_.size(),
+                                                   packed_.data(), packed_.size());
+    return n == 0 ? std::span<const std::byte>(samples_) : std::span<const std::byte>(packed_).first(n);
+}
+
+// Without a function to write with, the pipeline packs and compresses only.
+std::span<const std::byte> Packer::packed_in_core(const Rect& rect, std::span<const Plane> planes) {
+    exr_chunk_info_t chunk = {};
+    check(exr_write_scanline_chunk_info(context_.get(), 0, rect.y0, &chunk));
+    if (has_pipeline_) {
+        check(exr_encoding_update(context_.get(), 0, &chunk, &pipeline_));
+    } else {
+        check(exr_encoding_initialize(context_.get(), 0, &chunk, &pipeline_));
+        has_pipeline_ = true;
+    }
+    for (std::size_t c = 0; c < planes.size(); ++c) {
+        exr_coding_channel_info_t& channel = pipeline_.channels[c];
+        channel.encode_from_ptr = reinterpret_cast<const uint8_t*>(planes[c].at(rect.x0, rect.y0));
+        channel.user_bytes_per_element = static_cast<int16_t>(sample_size(planes[c].type));
+        channel.user_data_type = static_cast<uint16_t>(core_type(planes[c].type));
+        channel.user_pixel_stride = static_cast<int32_t>(sample_size(planes[c].type));
+        channel.user_line_stride = static_cast<int32_t>(planes[c].stride);
+    }
+    check(exr_encoding_choose_default_routines(context_.get(), 0, &pipeline_));
+    pipeline_.write_fn = nullptr;
+    pipeline_.yield_until_ready_fn = nullptr;
+    check(exr_encoding_run(context_.get(), 0, &pipeline_));
+    const bool smaller = pipeline_.compressed_bytes < pipeline_.packed_bytes;
+    return {static_cast<const std::byte*>(smaller ? pipeline_.compressed_buffer : pipeline_.packed_buffer),
+            smaller ? pipeline_.compressed_bytes : pipeline_.packed_bytes};
+}
+
+std::size_t Packer::memory(const Layout& layout) {
+    const int rows = std::min(layout.rows_per_chunk(), layout.data_window.height());
+    const std::size_t bytes = BlockLayout(types_of(layout)).bytes({0, 0, layout.data_window.width(), rows});
+    return 5 * bytes + kCoreTables;
+}
+
+}  // namespace keyline::exr

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/io/exr_layout.h"
+#include "engine/io/image_sink.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace keyline::exr {
+
+// How `spec` is stored: windows, types by depth, channels in the file's order, compression.  An empty data
+// window becomes one pixel at the display window's corner.  Throws Failure (kGraph) for what OpenEXR can't
+// hold, naming what it can.
+Layout layout_of(const SinkSpec& spec);
+
+// Starts an OpenEXR file of one scanline part, increasing in y.  An empty data window is written as a zero
+// pixel, whatever encode() is given.  Throws Failure: kGraph as above, kOutput where the file can't be made.
+std::unique_ptr<ImageSink> create_exr(const std::filesystem::path& file, const SinkSpec& spec);
+
+}  // namespace keyline::exr
