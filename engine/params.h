@@ -401,9 +401,9 @@ namespace detail {
 
 template <class Wanted, class T, class Visit>
 void visit_all(T& value, const char* name, const Constraint& c, Visit&& visit) {
-    if constexpr (std::same_as<T, Wanted>) {
+    if constexpr (std::same_as<std::remove_const_t<T>, Wanted>) {
         visit(value, name, c);
-    } else if constexpr (Declared<T>) {
+    } else if constexpr (Declared<std::remove_const_t<T>>) {
         for_each<Wanted>(value, visit);
     } else if constexpr (requires { value.entries; }) {
         for (auto& [key, item] : value.entries) visit_all<Wanted>(item, name, c, visit);
@@ -412,7 +412,7 @@ void visit_all(T& value, const char* name, const Constraint& c, Visit&& visit) {
                              *value;
                          }) {
         if (value) visit_all<Wanted>(*value, name, c, visit);
-    } else if constexpr (!std::same_as<T, std::string> && requires {
+    } else if constexpr (!std::same_as<std::remove_const_t<T>, std::string> && requires {
                              value.begin();
                              value.end();
                          }) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/node_adaptor.h"
+#include "engine/simd/color_rows.h"
 
 #include <algorithm>
 
@@ -34,21 +35,16 @@ struct Over {
 
     void compute(const Inputs& in, Outputs out, Scratch& scratch) const {
         const Rect& rect = out[0].rect;
-        const auto n = static_cast<std::size_t>(rect.width());
-        const std::span<float> amount = scratch.floats(n), fg_alpha = scratch.floats(n),
-                               bg_alpha = scratch.floats(n);
+        const int n = rect.width();
+        const std::span<const View> f = in[fg], b = in[bg], m = in[mask];
+        const auto fg_alpha = scratch.floats(static_cast<std::size_t>(n)),
+                   bg_alpha = scratch.floats(static_cast<std::size_t>(n));
         for (int y = rect.y0; y < rect.y1; ++y) {
-            fill_amount(in, y, amount);
-            fill_alpha(in[fg], y, fg_alpha);
-            fill_alpha(in[bg], y, bg_alpha);
-            for (std::size_t i = 0; i < n; ++i) fg_alpha[i] *= amount[i];
-            for (std::size_t c = 0; c < 3; ++c) {
-                const float *f = in[fg][c].row(y), *b = in[bg][c].row(y);
-                float* o = out[c].row(y);
-                for (std::size_t i = 0; i < n; ++i) o[i] = f[i] * amount[i] + b[i] * (1 - fg_alpha[i]);
-            }
-            for (std::size_t i = 0; i < n; ++i)
-                out[3].row(y)[i] = fg_alpha[i] + bg_alpha[i] * (1 - fg_alpha[i]);
+            const float* alpha = alpha_row(f, y, fg_alpha);
+            const simd::Coverage coverage{alpha, m.empty() ? nullptr : m[0].row(y), mix};
+            for (std::size_t c = 0; c < 3; ++c)
+                simd::over_row(f[c].row(y), coverage, b[c].row(y), n, out[c].row(y));
+            simd::over_row(alpha, coverage, alpha_row(b, y, bg_alpha), n, out[3].row(y));
         }
     }
 
@@ -57,23 +53,14 @@ struct Over {
     const float mix;
 
 private:
-    void fill_amount(const Inputs& in, int y, std::span<float> amount) const {
-        std::ranges::fill(amount, mix);
-        if (in[mask].empty()) return;
-        const float* m = in[mask][0].row(y);
-        for (std::size_t i = 0; i < amount.size(); ++i) amount[i] *= m[i];
-    }
-
     // The A of an input; without one, 1 inside its data window.
-    static void fill_alpha(std::span<const View> colour, int y, std::span<float> alpha) {
-        if (colour.size() > 3) {
-            std::copy_n(colour[3].row(y), alpha.size(), alpha.begin());
-            return;
-        }
+    static const float* alpha_row(std::span<const View> colour, int y, std::span<float> alpha) {
+        if (colour.size() > 3) return colour[3].row(y);
         const View& v = colour[0];
         std::ranges::fill(alpha, 0.0F);
         const Rect inside = intersect({v.rect.x0, y, v.rect.x1, y + 1}, v.window);
         if (!inside.empty()) std::fill_n(alpha.begin() + (inside.x0 - v.rect.x0), inside.width(), 1.0F);
+        return alpha.data();
     }
 };
 

@@ -100,7 +100,15 @@ private:
                                      : entry.pixel_type == EXR_PIXEL_FLOAT ? SampleType::kFloat
                                                                            : SampleType::kUint,
                                      entry.x_sampling,
-                                     entry.y_sampling});
+                                     entry.y_sampling,
+                                     entry.p_linear});
+            const Rect& window = part.data_window;
+            if (window.x0 % entry.x_sampling != 0 || window.width() % entry.x_sampling != 0 ||
+                window.y0 % entry.y_sampling != 0 || window.height() % entry.y_sampling != 0)
+                damaged(file_,
+                        fmt::format("channel {} has sampling {} × {}, which the data window's corner or "
+                                    "size is no multiple of",
+                                    in_quotes(entry.name.str), entry.x_sampling, entry.y_sampling));
         }
         if (part.channels.empty()) damaged(file_, "a part without channels");
     }

@@ -38,7 +38,8 @@ enum class Storage { kScanline, kTiled, kDeep };
 struct StoredChannel {
     std::string name;
     SampleType type;
-    int x_sampling, y_sampling;
+    int x_sampling = 1, y_sampling = 1;
+    uint8_t is_linear = 0;  // perceptually, as B44 and DWA want to know
 
     bool subsampled() const { return x_sampling != 1 || y_sampling != 1; }
 };

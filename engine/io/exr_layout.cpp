@@ -39,7 +39,7 @@ Attribute channel_list(const std::vector<StoredChannel>& channels) {
         append(list, channel.name);
         append(list, '\0');
         append(list, stored_type(channel.type));
-        append(list, int32_t{0});  // pLinear, of B44 only: not linear; and three bytes reserved
+        append(list, int32_t{channel.is_linear});  // and three bytes reserved
         append(list, int32_t{channel.x_sampling});
         append(list, int32_t{channel.y_sampling});
     }

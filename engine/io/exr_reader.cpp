@@ -3,6 +3,7 @@
 #include "engine/io/exr_reader.h"
 
 #include "engine/error.h"
+#include "engine/io/exr_contained.h"
 #include "engine/io/exr_metadata.h"
 #include "engine/io/exr_parts.h"
 #include "engine/io/exr_pool.h"
@@ -19,6 +20,24 @@ namespace {
 // Chunks of one row are handed on in cells of this many, so that a cell is worth a task.
 constexpr int kRowsOfSmallChunks = 32;
 
+std::unique_ptr<Unpacker> make_unpacker(const InputFile& file, const ReadContext& context, const Part& part,
+                                        int index) {
+    if (ContainedUnpacker::is_for(part))
+        return std::make_unique<ContainedUnpacker>(file, context, part, index);
+    return std::make_unique<ChunkUnpacker>(file, context, part, index);
+}
+
+// How many rows are unpacked at once.
+int block_rows(const Part& part) {
+    return ContainedUnpacker::is_for(part) ? ContainedUnpacker::block_rows(part) : part.chunk_height;
+}
+
+BlockLayout delivered_layout(const Part& part) {
+    std::vector<SampleType> types;
+    for (const ChannelInfo& channel : delivered_channels(part)) types.push_back(channel.type);
+    return BlockLayout(types);
+}
+
 class Source final : public ImageSource {
 public:
     Source(const std::filesystem::path& file, const OpenOptions& options)
@@ -34,6 +53,7 @@ public:
         if (groups_.empty())
             fail(ErrorKind::kInput, fmt::format("{}: no channels in the view that is wanted", file_.name()));
         header_.format = "openexr";
+        header_.file = file;
     }
 
     const ImageHeader& header() const override { return header_; }
@@ -42,15 +62,17 @@ public:
         const Group& g = *groups_[group];
         const Rect cell = header_.groups[group].chunk(column, row);
         const auto unpacker = g.unpackers.take();
-        for (int y = cell.y0; y < cell.y1; y += g.part.chunk_height) {
-            const Rect rect = intersect(cell, {cell.x0, y, cell.x1, y + g.part.chunk_height});
+        for (int y = cell.y0; y < cell.y1; y += g.block_rows) {
+            const Rect rect = intersect(cell, {cell.x0, y, cell.x1, y + g.block_rows});
             if (std::ranges::any_of(planes, [&](const Plane& p) { return wants(p, rect); }))
-                read_file_chunk(g, *unpacker, rect, planes);
+                read_block(g, *unpacker, rect, planes);
         }
     }
 
     std::size_t chunk_memory(std::size_t group) const override {
-        return Unpacker::memory(groups_[group]->part);
+        const Part& part = groups_[group]->part;
+        return ContainedUnpacker::is_for(part) ? ContainedUnpacker::memory(part)
+                                               : ChunkUnpacker::memory(part);
     }
 
 private:
@@ -58,17 +80,16 @@ private:
         Group(const InputFile& file, const ReadContext& context, const Part& p, const TakenPart& taken)
             : part(p),
               index(static_cast<int>(taken.index)),
-              layout(p.types()),
-              unpackers([&file, &context, this] {
-                  return std::make_unique<Unpacker>(file, context, part, index);
-              }) {
+              block_rows(exr::block_rows(p)),
+              layout(delivered_layout(p)),
+              unpackers([&file, &context, this] { return make_unpacker(file, context, part, index); }) {
             for (const DeliveredChannel& channel : taken.channels) channels.push_back(channel.index);
         }
 
         const Part& part;
-        int index;
-        BlockLayout layout;
-        std::vector<std::size_t> channels;  // of the part, in the group's order
+        int index, block_rows;
+        BlockLayout layout;                 // of what is delivered
+        std::vector<std::size_t> channels;  // in the layout, in the group's order
         mutable Pool<Unpacker> unpackers;
     };
 
@@ -76,10 +97,10 @@ private:
         return plane.data != nullptr && !intersect(plane.rect, rect).empty();
     }
 
-    void read_file_chunk(const Group& g, Unpacker& unpacker, const Rect& rect,
-                         std::span<const Plane> planes) const {
+    void read_block(const Group& g, Unpacker& unpacker, const Rect& rect,
+                    std::span<const Plane> planes) const {
         try {
-            const Block block = unpacker.unpack(find_chunk(context_, g.part, g.index, rect), rect);
+            const Block block = unpacker.unpack(rect);
             for (std::size_t i = 0; i < planes.size(); ++i)
                 if (wants(planes[i], rect)) store(block, g.layout, g.channels[i], planes[i]);
         } catch (const Failure& failure) {
@@ -102,12 +123,12 @@ private:
     // a chunk fit in memory?
     void refuse_excess(const Part& part, std::size_t max_chunk_bytes) const {
         const double pixel = static_cast<double>(BlockLayout(part.types()).pixel_bytes());
-        const double chunk = pixel * part.chunk_width * part.chunk_height;
+        const double chunk = pixel * part.chunk_width * block_rows(part);
         if (chunk > static_cast<double>(max_chunk_bytes))
             fail(ErrorKind::kInput,
                  fmt::format("{}: a chunk of {} × {} pixels unpacks to {:.0f} bytes, above the "
                              "limit of {}",
-                             file_.name(), part.chunk_width, part.chunk_height, chunk, max_chunk_bytes));
+                             file_.name(), part.chunk_width, block_rows(part), chunk, max_chunk_bytes));
         const double declared = pixel * static_cast<double>(part.data_window.area());
         const double most = std::max(info(part.compression).ratio, info(Compression::kZip).ratio) *
                             static_cast<double>(file_.size());
@@ -124,7 +145,8 @@ private:
     void add_group(const TakenPart& taken) {
         const Part& part = parts_[taken.index];
         ChannelGroup group{{}, part.data_window, part.chunk_width, part.chunk_height};
-        if (part.storage == Storage::kScanline && info(part.compression).rows == 1)
+        group.chunk_height = block_rows(part);
+        if (part.storage == Storage::kScanline && group.chunk_height == 1)
             group.chunk_height = std::min(part.data_window.height(), kRowsOfSmallChunks);
         for (const DeliveredChannel& channel : taken.channels) group.channels.push_back(channel.info);
         if (header_.groups.empty()) header_.display_window = part.display_window;

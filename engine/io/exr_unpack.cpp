@@ -42,11 +42,12 @@ void store(const Block& block, const BlockLayout& layout, std::size_t channel, c
     }
 }
 
-void Unpacker::FreeDecompressor::operator()(libdeflate_decompressor* decompressor) const {
+void ChunkUnpacker::FreeDecompressor::operator()(libdeflate_decompressor* decompressor) const {
     libdeflate_free_decompressor(decompressor);
 }
 
-Unpacker::Unpacker(const InputFile& file, const ReadContext& context, const Part& part, int part_index)
+ChunkUnpacker::ChunkUnpacker(const InputFile& file, const ReadContext& context, const Part& part,
+                             int part_index)
     : file_(file),
       context_(context),
       part_(part),
@@ -56,11 +57,12 @@ Unpacker::Unpacker(const InputFile& file, const ReadContext& context, const Part
     if (decompressor_ == nullptr) throw std::bad_alloc();
 }
 
-Unpacker::~Unpacker() {
+ChunkUnpacker::~ChunkUnpacker() {
     if (has_pipeline_) exr_decoding_destroy(context_.get(), &pipeline_);
 }
 
-Block Unpacker::unpack(const exr_chunk_info_t& chunk, const Rect& rect) {
+Block ChunkUnpacker::unpack(const Rect& rect) {
+    const exr_chunk_info_t chunk = find_chunk(context_, part_, part_index_, rect);
     const std::size_t size = layout_.bytes(rect);
     const bool as_is = chunk.packed_size == size;  // what did not get smaller is stored unpacked
     if (!as_is && !is_deflated(part_.compression)) return unpack_in_core(chunk, rect);
@@ -69,7 +71,7 @@ Block Unpacker::unpack(const exr_chunk_info_t& chunk, const Rect& rect) {
     return as_is ? Block{rect, packed_} : inflate(packed_, rect);
 }
 
-Block Unpacker::inflate(std::span<const std::byte> packed, const Rect& rect) {
+Block ChunkUnpacker::inflate(std::span<const std::byte> packed, const Rect& rect) {
     unpacked_.resize(layout_.bytes(rect));
     const libdeflate_result result = libdeflate_zlib_decompress(
         decompressor_.get(), packed.data(), packed.size(), unpacked_.data(), unpacked_.size(), nullptr);
@@ -81,7 +83,7 @@ Block Unpacker::inflate(std::span<const std::byte> packed, const Rect& rect) {
 }
 
 // The pipeline only reads and decompresses: the samples are copied out by store().
-Block Unpacker::unpack_in_core(const exr_chunk_info_t& chunk, const Rect& rect) {
+Block ChunkUnpacker::unpack_in_core(const exr_chunk_info_t& chunk, const Rect& rect) {
     if (part_.compression == Compression::kNone)
         fail(ErrorKind::kInput,
              fmt::format("{} bytes where {} were expected", chunk.packed_size, layout_.bytes(rect)));
@@ -97,7 +99,7 @@ Block Unpacker::unpack_in_core(const exr_chunk_info_t& chunk, const Rect& rect) 
     return {rect, {static_cast<const std::byte*>(pipeline_.unpacked_buffer), layout_.bytes(rect)}};
 }
 
-std::size_t Unpacker::memory(const Part& part) {
+std::size_t ChunkUnpacker::memory(const Part& part) {
     const Rect chunk{0, 0, part.chunk_width, part.chunk_height};
     const std::size_t unpacked = BlockLayout(part.types()).bytes(chunk);
     if (is_deflated(part.compression) || part.compression == Compression::kNone) return 2 * unpacked;

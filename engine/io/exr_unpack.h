@@ -28,18 +28,30 @@ struct Block {
 // Copies the part of a block that a plane wants; `channel` counts in the layout.
 void store(const Block& block, const BlockLayout& layout, std::size_t channel, const Plane& plane);
 
-// Reads and unpacks chunks of one part, one at a time, in buffers that are kept.  For every compression that
-// OpenEXRCore (3.1.5) gets right: not DWA, not B44 with float channels.
+// Reads and unpacks blocks of one part, one at a time, in buffers that are kept.
 class Unpacker {
 public:
-    Unpacker(const InputFile& file, const ReadContext& context, const Part& part, int part_index);
-    ~Unpacker();
+    Unpacker() = default;
+    virtual ~Unpacker() = default;
     Unpacker(const Unpacker&) = delete;
     Unpacker& operator=(const Unpacker&) = delete;
 
-    // `rect`: what the chunk covers.  The block lives until the next call.
+    // The block of `rect`, which lives until the next call.
     // Throws Failure (kInput), the message without file and place.
-    Block unpack(const exr_chunk_info_t& chunk, const Rect& rect);
+    virtual Block unpack(const Rect& rect) = 0;
+};
+
+// Chunk by chunk, for every compression that OpenEXRCore (3.1.5) gets right: not DWA, not B44 with float
+// channels; and for parts without subsampled channels.
+class ChunkUnpacker final : public Unpacker {
+public:
+    ChunkUnpacker(const InputFile& file, const ReadContext& context, const Part& part, int part_index);
+    ~ChunkUnpacker() override;
+    ChunkUnpacker(const ChunkUnpacker&) = delete;
+    ChunkUnpacker& operator=(const ChunkUnpacker&) = delete;
+
+    // `rect`: a chunk.
+    Block unpack(const Rect& rect) override;
 
     // Bytes that unpack() may need for chunks of the part.
     static std::size_t memory(const Part& part);

@@ -143,7 +143,7 @@ Layout layout_of(const SinkSpec& spec) {
         const ChannelInfo& channel = spec.channels[i];
         if (!layout.channels.empty() && layout.channels.back().name == channel.name)
             fail(ErrorKind::kGraph, fmt::format("two channels are named {}", in_quotes(channel.name)));
-        layout.channels.push_back({channel.name, stored_type(channel.type, spec.depth), 1, 1});
+        layout.channels.push_back({channel.name, stored_type(channel.type, spec.depth)});
     }
     return layout;
 }

@@ -15,6 +15,12 @@ namespace keyline::simd::HWY_NAMESPACE {
 
 using Mask = hn::Mask<FloatTag>;
 
+// Where the sign bit is set, of −0 too.
+HWY_INLINE Mask has_sign(Floats v) {
+    const hn::RebindToSigned<FloatTag> as_int;
+    return hn::RebindMask(kFloat, hn::Lt(hn::BitCast(as_int, v), hn::Zero(as_int)));
+}
+
 // Which pixels are kept, of those whose m is above 0.
 //
 // Of the two sides between which the pixel must stand out, "back" is the left one where the gradient is
@@ -27,8 +33,9 @@ HWY_INLINE Mask stands_out(const Memory& memory, const Rows3& magnitude, Floats 
     const auto zero = hn::Zero(kFloat);
     const auto along_x = hn::Abs(dx), along_y = hn::Abs(dy);
     const auto mostly_x = hn::Ge(along_x, along_y);
-    const auto leftward = hn::Lt(dx, zero), upward = hn::Lt(dy, zero);
-    const auto falling = hn::Xor(leftward, upward);  // the gradient lies along the other diagonal
+    // Adding +0 makes −0 into +0; then the sign bit alone says which way.
+    const auto signed_x = hn::Add(dx, zero), signed_y = hn::Add(dy, zero);
+    const auto falling = has_sign(hn::Xor(signed_x, signed_y));  // the gradient lies along the other diagonal
 
     const auto up_right = pixel(magnitude.above, i + 1), down_left = pixel(magnitude.below, i - 1);
     const auto back = hn::IfThenElse(mostly_x, pixel(magnitude.at, i - 1), pixel(magnitude.above, i));
@@ -40,11 +47,11 @@ HWY_INLINE Mask stands_out(const Memory& memory, const Rows3& magnitude, Floats 
 
     const auto shorter = hn::IfThenElse(mostly_x, along_y, along_x);
     const auto longer = hn::IfThenElse(mostly_x, along_x, along_y);
-    const auto w = hn::Div(shorter, longer), rest = hn::Sub(hn::Set(kFloat, 1.0F), w);
-    const auto m_back = hn::Add(hn::Mul(rest, back), hn::Mul(w, back_diagonal));
-    const auto m_front = hn::Add(hn::Mul(rest, front), hn::Mul(w, front_diagonal));
+    const auto w = hn::Div(shorter, longer);
+    const auto m_back = hn::Add(back, hn::Mul(w, hn::Sub(back_diagonal, back)));
+    const auto m_front = hn::Add(front, hn::Mul(w, hn::Sub(front_diagonal, front)));
 
-    const auto reversed = hn::Lt(hn::IfThenElse(mostly_x, dx, dy), zero);
+    const auto reversed = has_sign(hn::IfThenElse(mostly_x, signed_x, signed_y));
     const auto a = hn::IfThenElse(reversed, m_front, m_back);
     const auto b = hn::IfThenElse(reversed, m_back, m_front);
     return hn::And(hn::Le(a, m), hn::Lt(b, m));
@@ -53,18 +60,20 @@ HWY_INLINE Mask stands_out(const Memory& memory, const Rows3& magnitude, Floats 
 void suppress(const Rows3& magnitude, const float* dx_row, const float* dy_row, int n, Margin margin,
               const GradientRow& out) {
     for_each_vector(kFloat, n, 1, margin, [&](auto memory, int i) HWY_ATTR {
-        const auto m = memory.load(kFloat, magnitude.at, i);
-        const auto zero = hn::Zero(kFloat);
+        const auto store = [&](Floats value, float* row) HWY_ATTR {
+            if (row != nullptr) memory.store(value, kFloat, row, i);
+        };
+        const auto m = memory.load(kFloat, magnitude.at, i), zero = hn::Zero(kFloat);
         const auto positive = hn::Gt(m, zero);
         if (hn::AllFalse(kFloat, positive)) {  // flat, as much of a flat-shaded picture is
-            for (float* row : {out.dx, out.dy, out.magnitude}) memory.store(zero, kFloat, row, i);
+            for (float* row : {out.dx, out.dy, out.magnitude}) store(zero, row);
             return;
         }
-        const auto dx = memory.load(kFloat, dx_row, i), dy = memory.load(kFloat, dy_row, i);
+        const auto dx = memory.load_own(kFloat, dx_row, i), dy = memory.load_own(kFloat, dy_row, i);
         const auto kept = hn::And(positive, stands_out(memory, magnitude, dx, dy, m, i));
-        memory.store(hn::IfThenElseZero(kept, dx), kFloat, out.dx, i);
-        memory.store(hn::IfThenElseZero(kept, dy), kFloat, out.dy, i);
-        memory.store(hn::IfThenElseZero(kept, m), kFloat, out.magnitude, i);
+        store(hn::IfThenElseZero(kept, dx), out.dx);
+        store(hn::IfThenElseZero(kept, dy), out.dy);
+        store(hn::IfThenElseZero(kept, m), out.magnitude);
     });
 }
 
@@ -80,6 +89,7 @@ void nms_row(const Rows3& magnitude, const float* dx, const float* dy, int n, Ma
              const GradientRow& out) {
     HWY_DYNAMIC_DISPATCH(suppress)(magnitude, dx, dy, n, margin, out);
     for (float* row : {out.dx, out.dy, out.magnitude}) {
+        if (row == nullptr) continue;
         if (n > 0 && margin.before == 0) row[0] = 0;
         if (n > 0 && margin.after == 0) row[n - 1] = 0;
     }

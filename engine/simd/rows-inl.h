@@ -52,8 +52,14 @@ HWY_INLINE FewFloats rounded(Doubles v) {
 }
 
 struct Whole {
+    // Of a row that has a margin.
     template <class D, class T>
     HWY_INLINE hn::Vec<D> load(D d, const T* row, int i) const {
+        return hn::LoadU(d, row + i);
+    }
+    // Of a row that ends where the output does.
+    template <class D, class T>
+    HWY_INLINE hn::Vec<D> load_own(D d, const T* row, int i) const {
         return hn::LoadU(d, row + i);
     }
     template <class D, class T>
@@ -64,22 +70,35 @@ struct Whole {
 
 // Of each row exist first … last; a lane outside repeats the nearest of them.  The first `count` lanes are
 // stored.
-struct Part {
-    int first, last, count;
+class Part {
+public:
+    HWY_INLINE Part(int first, int last, int count) : first_(first), last_(last), count_(count) {}
 
     template <class D, class T>
     HWY_INLINE hn::Vec<D> load(D d, const T* row, int i) const {
-        constexpr int kCount = static_cast<int>(hn::MaxLanes(D()));
-        HWY_ALIGN T lanes[kCount];
-        for (int lane = 0; lane < kCount; ++lane) lanes[lane] = row[HWY_MIN(HWY_MAX(i + lane, first), last)];
-        return hn::Load(d, lanes);
+        return load_clamped(d, row, i, last_);
+    }
+    template <class D, class T>
+    HWY_INLINE hn::Vec<D> load_own(D d, const T* row, int i) const {
+        return load_clamped(d, row, i, i + count_ - 1);
     }
     template <class D, class T>
     HWY_INLINE void store(hn::Vec<D> value, D d, T* row, int i) const {
         HWY_ALIGN T lanes[hn::MaxLanes(D())];
         hn::Store(value, d, lanes);
-        for (int lane = 0; lane < count; ++lane) row[i + lane] = lanes[lane];
+        for (int lane = 0; lane < count_; ++lane) row[i + lane] = lanes[lane];
     }
+
+private:
+    template <class D, class T>
+    HWY_INLINE hn::Vec<D> load_clamped(D d, const T* row, int i, int end) const {
+        constexpr int kCount = static_cast<int>(hn::MaxLanes(D()));
+        HWY_ALIGN T lanes[kCount];
+        for (int lane = 0; lane < kCount; ++lane) lanes[lane] = row[HWY_MIN(HWY_MAX(i + lane, first_), end)];
+        return hn::Load(d, lanes);
+    }
+
+    int first_, last_, count_;
 };
 
 // Calls body(memory, i) for vectors of D at i = …, so that every pixel of a row of n is covered, some twice:

@@ -22,12 +22,12 @@ bool kept(const Rows3& magnitude, float dx, float dy, int i) {
     float a, b;
     if (std::fabs(dx) >= std::fabs(dy)) {
         const float w = std::fabs(dy) / std::fabs(dx);
-        a = (1 - w) * m(-sx, 0) + w * m(-sx, -sy);
-        b = (1 - w) * m(sx, 0) + w * m(sx, sy);
+        a = m(-sx, 0) + w * (m(-sx, -sy) - m(-sx, 0));
+        b = m(sx, 0) + w * (m(sx, sy) - m(sx, 0));
     } else {
         const float w = std::fabs(dx) / std::fabs(dy);
-        a = (1 - w) * m(0, -sy) + w * m(-sx, -sy);
-        b = (1 - w) * m(0, sy) + w * m(sx, sy);
+        a = m(0, -sy) + w * (m(-sx, -sy) - m(0, -sy));
+        b = m(0, sy) + w * (m(sx, sy) - m(0, sy));
     }
     return m(0, 0) > 0 && a <= m(0, 0) && b < m(0, 0);
 }
@@ -84,10 +84,22 @@ TEST(NmsRow, ComparesAlongTheGradientsDiagonal) {
     EXPECT_EQ(middle({0, 0, 9, 0, 5, 0, 0, 0, 0}, -1, 1), 0.0F);
 }
 
+TEST(NmsRow, OnAPlateauNeighboursAreInterpolatedExactly) {
+    const float m = 0.1F;
+    for (float w = 0; w <= 1; w += 0.01F) EXPECT_EQ(middle({m, m, m, m, m, 0, 0, 0, 0}, 1, w), m) << w;
+}
+
 TEST(NmsRow, MinusZeroCountsAsPlus) {
     const std::array<float, 9> m = {0, 1, test::kInfinity, 0, 5, 0, 0, 1, 0};
     EXPECT_EQ(middle(m, 0.0F, 1), 5.0F);
     EXPECT_EQ(middle(m, -0.0F, 1), 5.0F);
+}
+
+TEST(NmsRow, LeavesOutRowsThatAreNotWanted) {
+    const std::vector<float> m = {0, 0, 0, 1, 5, 1, 0, 0, 0}, along = {1}, across = {0};
+    float out = 0;
+    simd::nms_row({&m[1], &m[4], &m[7]}, along.data(), across.data(), 1, {1, 1}, {nullptr, nullptr, &out});
+    EXPECT_EQ(out, 5.0F);
 }
 
 TEST(NmsRow, ANanSuppresses) {

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/image.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace keyline {
+
+// Percentiles of a frame, exactly, in two rounds over it: samples are counted by the upper half of their
+// bits, then those that share it with a percentile by the lower half.  The percentile p of n samples is the
+// one of rank ⌈p/100 · n⌉ from below (nearest rank; the first for p = 0).  Samples that are 0 or NaN don't
+// count.
+class RankSearch {
+public:
+    static constexpr std::size_t kBins = 65536;
+    using Bins = std::vector<uint32_t>;
+    using Counts = std::vector<Bins>;  // one in the first round, one a percentile in the second
+
+    explicit RankSearch(std::array<double, 2> percentiles) : percentiles_(percentiles) {}
+
+    Counts count(const View& view) const;  // of a block, in the current round
+    void add(const Counts& counts);
+    void finish_round();
+
+    // After both rounds; nothing where no sample counts.
+    std::optional<float> value(std::size_t percentile) const { return values_[percentile]; }
+
+    static std::size_t bytes() { return 3 * kBins * sizeof(uint64_t); }
+
+private:
+    using Totals = std::vector<uint64_t>;
+
+    std::array<double, 2> percentiles_;
+    int round_ = 0;
+    std::vector<Totals> totals_;
+    std::array<uint32_t, 2> upper_{};  // of the percentiles' bits
+    std::array<uint64_t, 2> rank_{};   // from 1, among those with these upper bits
+    bool any_ = false;
+    std::array<std::optional<float>, 2> values_;
+};
+
+}  // namespace keyline

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/run.h"
+
+#include <cmath>
+
+namespace keyline::testing {
+namespace {
+
+// Straight from the definition, in double: the 2-D kernel over what lies inside the window, renormalised.
+Image blurred(const Image& in, double sx, double sy) {
+    Image out = in;
+    const int rx = static_cast<int>(std::ceil(2.5 * sx)), ry = static_cast<int>(std::ceil(2.5 * sy));
+    for (Image::Channel& c : out.channels)
+        out.fill(c.name, [&](int x, int y) {
+            double sum = 0, weights = 0;
+            for (int dy = -ry; dy <= ry; ++dy)
+                for (int dx = -rx; dx <= rx; ++dx) {
+                    if (!in.window.contains(x + dx, y + dy)) continue;
+                    const double w = (sx > 0 ? std::exp(-0.5 * dx * dx / (sx * sx)) : 1) *
+                                     (sy > 0 ? std::exp(-0.5 * dy * dy / (sy * sy)) : 1);
+                    sum += w * static_cast<double>(in.at(c.name, x + dx, y + dy));
+                    weights += w;
+                }
+            return sum / weights;
+        });
+    return out;
+}
+
+TEST(Gaussian, AgreesWithTheDefinition) {
+    const Image in = noise({-7, 3, 61, 40}, {"R", "Z"}, 1);
+    for (const double sigma : {0.3, 1.0, 1.4, 3.7})
+        EXPECT_IMAGE_NEAR(run("gaussian", {{"sigma", sigma}}, in), blurred(in, sigma, sigma), 1e-5);
+}
+
+TEST(Gaussian, TakesASigmaForEachAxis) {
+    const Image in = noise({0, 0, 40, 30}, {"Y"}, 2);
+    EXPECT_IMAGE_NEAR(run("gaussian", {{"sigma", {2.5, 0}}}, in), blurred(in, 2.5, 0), 1e-5);
+    EXPECT_IMAGE_NEAR(run("gaussian", {{"sigma", {0, 1.2}}}, in), blurred(in, 0, 1.2), 1e-5);
+}
+
+TEST(Gaussian, ZeroPassesThrough) {
+    const Image in = noise({0, 0, 9, 9}, {"Y"}, 3);
+    EXPECT_IMAGE(run("gaussian", {{"sigma", 0}}, in), in);
+}
+
+TEST(Gaussian, KeepsAConstantUpToTheEdge) {
+    const Image in = noise({5, 5, 90, 30}, {"Y"}, 4, 0.75F, 0.75F);
+    EXPECT_IMAGE_NEAR(run("gaussian", {{"sigma", 4}}, in), in, 1e-6);
+}
+
+TEST(Gaussian, RefusesANegativeSigma) {
+    EXPECT_EQ(
+        error_of("gaussian", {{"sigma", -3}}, ascii({"."})),
+        "test.json:5:13: error: node 'node' (gaussian): 'sigma' is -3; it must be from 0 to 500 pixels\n");
+}
+
+}  // namespace
+}  // namespace keyline::testing
