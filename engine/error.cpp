@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <numeric>
+#include <tuple>
 
 namespace keyline {
 
@@ -12,17 +13,20 @@ namespace {
 
 constexpr std::size_t kLongestQuote = 60;  // characters
 
-// Levenshtein distance, by rows.
+// Insertions, deletions, substitutions and swaps of neighbours that make `b` of `a` (optimal string
+// alignment), by rows.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
+    std::vector<std::size_t> before(b.size() + 1), above(b.size() + 1), row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t substitute = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substitute});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::swap(before, above);
+        std::swap(above, row);
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t substitute = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({row[j - 1] + 1, above[j] + 1, substitute});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
         }
     }
     return row.back();
@@ -41,18 +45,38 @@ void append_escaped(std::string& out, char c) {
         out += c;
 }
 
+std::string joined(const Error& e, const char* label) {
+    std::string out;
+    if (!e.place.file.empty()) out += e.place.text() + ": ";
+    out += label;
+    if (!e.node.empty()) out += e.node + ": ";
+    out += e.what;
+    if (!e.hint.empty()) out += "; " + e.hint;
+    return out;
+}
+
 }  // namespace
 
 std::string Place::text() const { return line > 0 ? fmt::format("{}:{}:{}", file, line, column) : file; }
 
 std::string Error::text() const {
-    std::string out;
-    if (!place.file.empty()) out += place.text() + ": ";
-    out += kind == ErrorKind::kInternal ? "error: internal: " : "error: ";
-    if (!node.empty()) out += node + ": ";
-    out += what;
-    if (!hint.empty()) out += "; " + hint;
+    return joined(*this, kind == ErrorKind::kInternal ? "error: internal: " : "error: ");
+}
+
+std::string Error::warning_text() const {
+    std::string out = joined(*this, "warning: ");
+    for (const char* word : {"error:", "Error:", "ERROR:"})
+        for (auto at = out.find(word); at != std::string::npos; at = out.find(word))
+            out.insert(out.begin() + static_cast<std::ptrdiff_t>(at) + 5, ' ');
     return out;
+}
+
+void Diagnostics::sort_by_place() {
+    const auto key = [](const Error& e) {
+        return std::tuple(!e.place.file.empty(), e.place.line, e.place.column);
+    };
+    std::ranges::stable_sort(errors_, {}, key);
+    std::ranges::stable_sort(warnings_, {}, key);
 }
 
 void fail(ErrorKind kind, std::string what, std::string hint) {

@@ -41,6 +41,10 @@ struct Error {
 
     // "PLACE: error: NODE: WHAT; HINT", leaving out what is empty.
     std::string text() const;
+
+    // The same with "warning".  Scripts look for "error:" in what a program says: it is not in there, even
+    // where a file's name holds it.
+    std::string warning_text() const;
 };
 
 class Failure : public std::exception {
@@ -66,6 +70,9 @@ public:
     bool ok() const { return errors_.empty(); }
     const std::vector<Error>& errors() const { return errors_; }
     const std::vector<Error>& warnings() const { return warnings_; }
+
+    // In the order of the places: those without one first, then options, then the lines of the graph.
+    void sort_by_place();
 
 private:
     std::vector<Error> errors_, warnings_;

@@ -25,6 +25,12 @@ std::string read_text(const std::filesystem::path& file) {
     return text.str();
 }
 
+bool stands_in(const Place& place, const Value& value) {
+    const auto holds = [&](const Value& v) { return stands_in(place, v); };
+    return value.place == place || std::ranges::any_of(value.items, holds) ||
+           std::ranges::any_of(value.members, holds, &Member::value);
+}
+
 }  // namespace
 
 std::unique_ptr<const Graph> Graph::load(const std::filesystem::path& file, const LoadOptions& options,
@@ -47,14 +53,25 @@ FrameNodes Graph::at(int frame, Diagnostics& diagnostics) const {
     out.reserve(nodes_.size());
     for (const GraphNode& node : nodes_) {
         Diagnostics faults;
-        const Value object = variables_->substitute(node.object, frame, faults);
+        std::vector<const Value*> unknown;  // values that a faulty variable leaves open
+        Value object = node.object;
+        for (Member& m : object.members) {
+            const std::size_t before = faults.errors().size();
+            const bool faulty = variables_->uses_faulty(m.value);
+            m.value = variables_->substitute(m.value, frame, faults);
+            if (faulty || faults.errors().size() > before) unknown.push_back(&m.value);
+        }
         ParamReader reader(faults, node.title(), {folder_, has_root_});
         auto parsed = node.type->parse(object, reader);
         for (Error e : faults.errors()) {
+            const bool follows = !e.node.empty() && std::ranges::any_of(unknown, [&](const Value* v) {
+                return stands_in(e.place, *v);
+            });
+            if (follows) continue;
             if (e.node.empty()) e.node = node.title();
             diagnostics.error(std::move(e));
         }
-        out.push_back(faults.ok() ? std::move(parsed) : nullptr);
+        out.push_back(faults.ok() && unknown.empty() ? std::move(parsed) : nullptr);
     }
     return out;
 }
@@ -66,6 +83,22 @@ bool Graph::names_frame(int node) const {
     const auto parsed = n.type->parse(variables_->substitute(n.object, 1, ignored), reader);
     if (!parsed || parsed->files().empty()) return false;
     return std::ranges::any_of(parsed->files(), &FileName::has_frame) || variables_->uses_frame(n.object);
+}
+
+bool Graph::uses_frame(int node) const {
+    return names_frame(node) || variables_->uses_frame(nodes_[static_cast<std::size_t>(node)].object);
+}
+
+std::vector<int> Graph::nodes_in_use() const {
+    std::vector<bool> used(nodes_.size(), false);
+    for (const int sink : sinks_) used[static_cast<std::size_t>(sink)] = true;
+    for (auto it = order_.rbegin(); it != order_.rend(); ++it)
+        if (used[static_cast<std::size_t>(*it)])
+            for (const int target : links(*it)) used[static_cast<std::size_t>(target)] = true;
+    std::vector<int> out;
+    std::ranges::copy_if(order_, std::back_inserter(out),
+                         [&](int node) { return used[static_cast<std::size_t>(node)]; });
+    return out;
 }
 
 std::optional<int> Graph::first_frame_on_disk() const {

@@ -64,6 +64,9 @@ public:
     // The nodes that a node reads.
     const std::vector<int>& links(int node) const { return links_[static_cast<std::size_t>(node)]; }
 
+    // The sinks and what they need, directly or not, each after those it reads.
+    std::vector<int> nodes_in_use() const;
+
     // The OpenColorIO config that the graph names; empty where it names none.
     const std::filesystem::path& ocio() const { return ocio_; }
 
@@ -72,6 +75,9 @@ public:
 
     // Whether a file name of the node holds the frame number.
     bool names_frame(int node) const;
+
+    // Whether the node depends on the frame's number: in a file name, or by ${frame} anywhere else.
+    bool uses_frame(int node) const;
 
     // The first frame that some source finds on disk; nothing where no file name holds the frame.
     std::optional<int> first_frame_on_disk() const;

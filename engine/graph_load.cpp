@@ -135,7 +135,12 @@ private:
                 error(place, "there is no node " + in_quotes(id), did_you_mean(id, ids()));
                 continue;
             }
-            set_member(graph_.nodes_[static_cast<std::size_t>(index)].object, o.target.substr(dot + 1),
+            const std::string name = o.target.substr(dot + 1);
+            if (name == "type" || name == "about") {
+                error(place, fmt::format("{} is neither a parameter nor an input", in_quotes(name)));
+                continue;
+            }
+            set_member(graph_.nodes_[static_cast<std::size_t>(index)].object, name,
                        parse_option_value(o.value, o.option));
         }
     }
@@ -204,27 +209,56 @@ private:
     // Parameters, then links.  The frame is that of the files on disk; it matters only where ${frame} is a
     // parameter, and each later frame is checked again.
     void check_nodes() {
-        const FrameNodes parsed = graph_.at(graph_.first_frame_on_disk().value_or(1), diagnostics_);
-        graph_.links_.resize(parsed.size());
-        for (std::size_t i = 0; i < parsed.size(); ++i)
-            if (parsed[i]) check_links(i, *parsed[i]);
+        const int frame = graph_.first_frame_on_disk().value_or(1);
+        graph_.at(frame, diagnostics_);
+        graph_.links_.resize(graph_.nodes_.size());
+        for (std::size_t i = 0; i < graph_.nodes_.size(); ++i) {
+            Diagnostics ignored;  // at() told them
+            const GraphNode& node = graph_.nodes_[i];
+            const Value object = graph_.variables_->substitute(node.object, frame, ignored);
+            for (const FieldInfo& f : node.type->fields)
+                if (const Value* v = object.find(f.name)) check_links(i, f.type, *v);
+        }
         find_cycles();
     }
 
-    void check_links(std::size_t i, const Node& node) {
-        for (const Input& in : node.inputs()) {
-            const GraphNode& from = graph_.nodes_[i];
-            const int target = graph_.index_of(in.node);
-            if (target >= 0 && graph_.nodes_[static_cast<std::size_t>(target)].type->kind == NodeKind::kSink)
-                error(in.place,
-                      fmt::format("{} is a {}, which has no result", in_quotes(in.node),
-                                  graph_.nodes_[static_cast<std::size_t>(target)].type->name),
-                      {}, from.title());
-            else if (target >= 0)
-                graph_.links_[i].push_back(target);
-            else if (!unknown_ids_.contains(in.node))
+    // From the declaration, so that the inputs of a node are checked whatever else is wrong with it.
+    void check_links(std::size_t i, const TypeInfo& type, const Value& v) {
+        switch (type.kind) {
+            case TypeInfo::Kind::kInput: return check_link(i, v);
+            case TypeInfo::Kind::kList:
+                for (const Value& item : v.items) check_links(i, type.items[0], item);
+                return;
+            case TypeInfo::Kind::kMap:
+                for (const Member& m : v.members) check_links(i, type.items[0], m.value);
+                return;
+            case TypeInfo::Kind::kObject:
+                for (const FieldInfo& f : type.fields)
+                    if (const Value* member = v.find(f.name)) check_links(i, f.type, *member);
+                return;
+            default: return;
+        }
+    }
+
+    void check_link(std::size_t i, const Value& v) {
+        Diagnostics ignored;  // at() told them
+        ParamReader reader(ignored, {}, {});
+        Input in;
+        Codec<Input>::parse(v, "", {}, in, reader);
+        const bool told = reader.failed() || graph_.variables_->uses_faulty(v);
+        const int target = told ? -1 : graph_.index_of(in.node);
+        const GraphNode& from = graph_.nodes_[i];
+        if (target < 0) {
+            links_known_ = false;
+            if (!told && !unknown_ids_.contains(in.node))
                 error(in.place, "there is no node " + in_quotes(in.node), did_you_mean(in.node, ids()),
                       from.title());
+        } else if (const GraphNode& to = graph_.nodes_[static_cast<std::size_t>(target)];
+                   to.type->kind == NodeKind::kSink) {
+            error(in.place, fmt::format("{} is a {}, which has no result", in_quotes(in.node), to.type->name),
+                  {}, from.title());
+        } else {
+            graph_.links_[i].push_back(target);
         }
     }
 
@@ -313,15 +347,10 @@ private:
     }
 
     void warn_of_unused() {
-        if (!options_.outputs.empty() || !options_.only.empty()) return;
-        std::set<int> used(graph_.sinks_.begin(), graph_.sinks_.end());
-        std::vector<int> open(used.begin(), used.end());
-        while (!open.empty()) {
-            const int node = open.back();
-            open.pop_back();
-            for (const int target : graph_.links_[static_cast<std::size_t>(node)])
-                if (used.insert(target).second) open.push_back(target);
-        }
+        if (!options_.outputs.empty() || !options_.only.empty() || !links_known_ || !unknown_ids_.empty())
+            return;
+        const std::vector<int> in_use = graph_.nodes_in_use();
+        const std::set<int> used(in_use.begin(), in_use.end());
         for (std::size_t i = 0; i < graph_.nodes_.size(); ++i)
             if (!used.contains(static_cast<int>(i)))
                 diagnostics_.warning({ErrorKind::kGraph,
@@ -335,6 +364,7 @@ private:
     Graph& graph_;
     const LoadOptions& options_;
     Diagnostics& diagnostics_;
+    bool links_known_ = true;            // else some node may be in use that does not look so
     std::set<std::string> unknown_ids_;  // nodes whose type is wrong: told once, not again by their users
 };
 
@@ -349,6 +379,7 @@ std::unique_ptr<const Graph> Graph::parse(std::string_view text, const std::stri
     } catch (const Failure& f) {
         diagnostics.error(f.error());
     }
+    diagnostics.sort_by_place();
     return diagnostics.ok() ? std::move(graph) : nullptr;
 }
 

@@ -136,6 +136,7 @@ private:
 
 void check(const Graph& graph, int frame, const RenderOptions& options, Diagnostics& diagnostics) {
     resolve_checked(graph, frame, options, true, diagnostics);
+    diagnostics.sort_by_place();
 }
 
 std::optional<Plan> plan_frame(const Graph& graph, int frame, const RenderOptions& options,

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/commands.h"
+#include "cli/report.h"
+#include "engine/reference.h"
+#include "engine/registry.h"
+
+#include <memory>
+
+namespace keyline::cli {
+
+namespace {
+
+struct NodesArguments {
+    std::string type;
+    bool markdown = false, schema = false;
+};
+
+int run(const NodesArguments& arguments) {
+    if (arguments.markdown) {
+        print_result(reference_markdown());
+    } else if (arguments.schema) {
+        print_result(schema_json() + "\n");
+    } else if (arguments.type.empty()) {
+        print_result(node_list_text());
+    } else {
+        const NodeType* type = registry().find(arguments.type);
+        if (!type) {
+            std::string hint = did_you_mean(arguments.type, registry().names());
+            fail(ErrorKind::kGraph, "there is no node type " + in_quotes(arguments.type),
+                 hint.empty() ? "'keyline nodes' lists them" : hint);
+        }
+        print_result(node_text(*type));
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_nodes(CLI::App& program, Chosen& chosen) {
+    CLI::App& command = *program.add_subcommand("nodes", "The node reference: all types, or one in full");
+    const auto arguments = std::make_shared<NodesArguments>();
+    CLI::Option* type = command.add_option("TYPE", arguments->type, "A node type")->type_name("");
+    CLI::Option* markdown =
+        command.add_flag("--markdown", arguments->markdown, "The whole reference as Markdown");
+    CLI::Option* schema = command.add_flag("--schema", arguments->schema, "A JSON Schema of graph files");
+    markdown->excludes(type, schema);
+    schema->excludes(type);
+    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace keyline::cli

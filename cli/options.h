@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/render.h"
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+// What render, check and plan share: the options as typed, and what they mean.
+
+namespace keyline::cli {
+
+struct GraphArguments {
+    std::string graph;
+    std::string frames, root, ocio;
+    std::vector<std::string> set, var, only, output;
+    std::string threads, tile, memory;
+};
+
+// The graph, and which of its nodes and frames with which values.
+void add_graph_options(CLI::App& command, GraphArguments& arguments);
+
+// --threads, --tile and --memory.
+void add_machine_options(CLI::App& command, GraphArguments& arguments);
+
+// An option that takes a value and stands for one value only, `--name VALUE` or `--name=VALUE`.
+CLI::Option* add_value_option(CLI::App& command, const std::string& name, std::string& value,
+                              const std::string& value_name, const std::string& help);
+
+struct LoadedGraph {
+    std::unique_ptr<const Graph> graph;  // null where there was an error; the diagnostics have it
+    RenderOptions options;               // frames as typed: none without --frames
+};
+
+// Reads the options and the graph; whatever is wrong with either is told.
+LoadedGraph load_graph(const GraphArguments& arguments, Diagnostics& diagnostics);
+
+// "512M", "1.5G", "4096": bytes, with powers of 1024.  Throws Failure (kGraph) for anything else and for 0.
+std::size_t parse_size(const std::string& text);
+
+// A whole number of an option.  Throws Failure (kGraph) for anything else and out of range.
+int parse_count(const std::string& text, int least, int most);
+
+}  // namespace keyline::cli

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/geometry.h"
+#include "engine/io/image_source.h"
+
+#include <span>
+#include <string>
+
+// Windows and channels as people read them.
+
+namespace keyline {
+
+// "480 × 270 at (0, 0)"; "empty".
+std::string describe(const Rect& rect);
+
+// "R G B A half, ViewLayer.Normal: X Y Z half, ViewLayer.Depth: Z float": neighbours of one layer and type
+// together.
+std::string describe(std::span<const ChannelInfo> channels);
+
+}  // namespace keyline

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/io/describe_image.h"
+
+#include "engine/io/exr_file.h"
+#include "engine/io/exr_header.h"
+#include "engine/io/exr_metadata.h"
+
+namespace keyline {
+
+namespace {
+
+const char* storage_name(exr::Storage storage) {
+    switch (storage) {
+        case exr::Storage::kScanline: return "scanline";
+        case exr::Storage::kTiled: return "tiled";
+        case exr::Storage::kDeep: break;
+    }
+    return "deep";
+}
+
+ImagePart describe_part(const exr::Part& part) {
+    ImagePart out;
+    out.name = part.name;
+    out.view = part.view;
+    out.storage = storage_name(part.storage);
+    out.compression = exr::info(part.compression).name;
+    out.display_window = part.display_window;
+    out.data_window = part.data_window;
+    if (part.storage == exr::Storage::kTiled) {
+        out.tile_width = part.chunk_width;
+        out.tile_height = part.chunk_height;
+    }
+    for (const exr::StoredChannel& c : part.channels) out.channels.push_back({c.name, c.type});
+    out.metadata = part.metadata;
+    return out;
+}
+
+// An image that the engine opened; its groups are all there is to know of its storage.
+ImageDescription describe_source(const ImageSource& source) {
+    const ImageHeader& header = source.header();
+    ImageDescription out{header.format, {}};
+    for (const ChannelGroup& group : header.groups) {
+        ImagePart part;
+        part.display_window = header.display_window;
+        part.data_window = group.window;
+        part.channels = group.channels;
+        part.metadata = header.metadata;
+        out.parts.push_back(std::move(part));
+    }
+    return out;
+}
+
+}  // namespace
+
+ImageDescription describe_image(const std::filesystem::path& file) {
+    const exr::InputFile input(file);
+    std::array<std::byte, exr::kMagic.size()> start = {};
+    input.read_some(0, start);
+    if (start != exr::kMagic) return describe_source(*open_image(file));
+    const exr::ReadContext context(input);
+    ImageDescription out{"openexr", {}};
+    for (const exr::Part& part : exr::read_parts(input, context, exr::read_attributes(input)))
+        out.parts.push_back(describe_part(part));
+    return out;
+}
+
+}  // namespace keyline
