@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace keyline::bench {
+
+struct Measured {
+    double seconds = 0;          // wall clock, the whole process
+    std::size_t peak_bytes = 0;  // resident, at most
+};
+
+// Runs a program to its end, its output thrown away.  Throws std::runtime_error where it can't be run or
+// fails.
+Measured run_process(const std::vector<std::string>& command);
+
+// The median time and the largest memory of runs.
+Measured summary(std::vector<Measured> runs);
+
+}  // namespace keyline::bench
