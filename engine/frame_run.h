@@ -33,6 +33,7 @@ public:
     // threw.
     void failed(const Job& job, std::exception_ptr error);
     void cancel() { cancelled_ = true; }
+    bool cancelled() const { return cancelled_; }
 
     // No job is left and none is under way.
     bool done() const;
