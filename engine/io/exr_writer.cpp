@@ -63,8 +63,8 @@ public:
           is_empty_(spec.data_window.empty()),
           order_(sorted_order(spec.channels)),
           channels_(spec.channels),
-          pack_context_(layout_),
-          packers_([this] { return std::make_unique<Packer>(layout_, pack_context_); }),
+          pack_context_(Packer::uses_core(layout_) ? std::make_unique<PackContext>(layout_) : nullptr),
+          packers_([this] { return std::make_unique<Packer>(layout_, pack_context_.get()); }),
           header_(layout_.header()),
           file_(file) {
         for (ChannelInfo& channel : channels_) channel.type = stored_type(channel.type, spec.depth);
@@ -122,7 +122,7 @@ private:
     bool is_empty_;
     std::vector<std::size_t> order_;  // the file's order, as places in the spec's
     std::vector<ChannelInfo> channels_;
-    PackContext pack_context_;
+    std::unique_ptr<PackContext> pack_context_;
     mutable Pool<Packer> packers_;
     std::vector<std::byte> header_;
     OutputFile file_;
