@@ -143,8 +143,7 @@ TEST(ExrWriter, RefusesWhatTheFormatCannotHold) {
     const TemporaryFolder folder;
     SinkSpec spec = spec_for({0, 0, 4, 4}, {0, 0, 4, 4});
     const auto create = [&] { create_image(folder / "a.exr", spec); };
-    EXPECT_THAT(failure_of(create, ErrorKind::kGraph),
-                HasSubstr("there are none"));
+    EXPECT_THAT(failure_of(create, ErrorKind::kGraph), HasSubstr("there are none"));
     spec.channels = {{"R"}, {"R"}};
     EXPECT_THAT(failure_of(create, ErrorKind::kGraph), HasSubstr("'R'"));
     spec.channels = {{"R"}};
