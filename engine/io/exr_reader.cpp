@@ -40,11 +40,11 @@ BlockLayout delivered_layout(const Part& part) {
 
 class Source final : public ImageSource {
 public:
-    Source(const std::filesystem::path& file, const OpenOptions& options)
-        : file_(file),
-          attributes_(read_attributes(file_)),
-          context_(file_),
-          parts_(read_parts(file_, context_, std::move(attributes_))) {
+    Source(const std::filesystem::path& file, const OpenOptions& options) : file_(file) {
+        // First, as it bounds how much there is for Core to parse.
+        std::vector<std::vector<Attribute>> attributes = read_attributes(file_);
+        context_ = std::make_unique<ReadContext>(file_);
+        parts_ = read_parts(file_, *context_, std::move(attributes));
         for (const TakenPart& taken : choose_parts(file_.name(), parts_, options)) {
             if (taken.channels.empty()) continue;
             refuse_excess(parts_[taken.index], options.max_chunk_bytes);
@@ -154,12 +154,11 @@ private:
         for (const Attribute& attribute : part.metadata.attributes())
             if (header_.metadata.find(attribute.name) == nullptr) header_.metadata.set(attribute);
         header_.groups.push_back(std::move(group));
-        groups_.push_back(std::make_unique<Group>(file_, context_, part, taken));
+        groups_.push_back(std::make_unique<Group>(file_, *context_, part, taken));
     }
 
     InputFile file_;
-    std::vector<std::vector<Attribute>> attributes_;  // moved into the parts
-    ReadContext context_;
+    std::unique_ptr<ReadContext> context_;
     std::vector<Part> parts_;
     ImageHeader header_;
     std::vector<std::unique_ptr<Group>> groups_;
