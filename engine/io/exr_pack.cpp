@@ -94,15 +94,10 @@ void Packer::pack(const Rect& rect, std::span<const Plane> planes, std::vector<s
 }
 
 std::span<const std::byte> Packer::compressed(const Rect& rect, std::span<const Plane> planes) {
-    switch (layout_.compression) {
-        case Compression::kNone: gather(rect, planes); return samples_;
-        case Compression::kZip:
-        case Compression::kZips: gather(rect, planes); return deflated();
-        default: break;
-    }
     if (uses_core(layout_)) return packed_in_core(rect, planes);
     gather(rect, planes);
-    return packed_in_helper(rect);
+    if (layout_.compression == Compression::kNone) return samples_;
+    return needs_helper(layout_.compression, layout_.channels) ? packed_in_helper(rect) : deflated();
 }
 
 bool Packer::uses_core(const Layout& layout) {

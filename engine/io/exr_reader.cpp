@@ -60,6 +60,7 @@ public:
     void read_chunk(std::size_t group, int column, int row, std::span<const Plane> planes) const override {
         const Group& g = *groups_[group];
         const Rect cell = header_.groups[group].chunk(column, row);
+        check_planes(header_.groups[group], cell, planes);
         const auto unpacker = g.unpackers.take();
         for (int y = cell.y0; y < cell.y1; y += g.block_rows) {
             const Rect rect = intersect(cell, {cell.x0, y, cell.x1, y + g.block_rows});
@@ -91,6 +92,14 @@ private:
         std::vector<std::size_t> channels;  // in the layout, in the group's order
         mutable Pool<Unpacker> unpackers;
     };
+
+    static void check_planes(const ChannelGroup& group, const Rect& cell, std::span<const Plane> planes) {
+        const auto fits = [](const Plane& p, const ChannelInfo& c) {
+            return p.data == nullptr || p.type == c.type;
+        };
+        if (cell.empty() || !std::ranges::equal(planes, group.channels, fits))
+            fail(ErrorKind::kInternal, "a chunk was asked for that is not there, or in other types");
+    }
 
     static bool wants(const Plane& plane, const Rect& rect) {
         return plane.data != nullptr && !intersect(plane.rect, rect).empty();
