@@ -4,11 +4,12 @@
 #include "tests/io/exr_files.h"
 
 #include <ImfInputFile.h>
-#include <array>
-#include <cstring>
+#include <atomic>
 #include <fmt/format.h>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <thread>
 #include <tuple>
 
 namespace keyline {
@@ -170,6 +171,51 @@ TEST(ExrWriter, DoesNotFinishWithChunksMissingOrOutOfOrder) {
     sink->commit(sink->encode(0, planes));
     EXPECT_THAT(failure_of([&] { sink->finish(); }, ErrorKind::kInternal), HasSubstr("1 chunks of 3"));
     EXPECT_TRUE(folder.entries().empty());
+}
+
+TEST(ExrWriter, ManyThreadsEncodeTheSame) {
+    const TemporaryFolder folder;
+    const Rect window{0, 0, 60, 400};
+    Image image = test_image(channels_of("mixed"), window);
+    for (const char* compression : {"none", "rle", "zip", "piz", "pxr24", "dwaa"}) {
+        SinkSpec spec = spec_for(window, window, compression);
+        std::vector<Plane> planes;
+        for (auto& [name, pixels] : image) {
+            spec.channels.push_back({name, pixels.type});
+            planes.push_back(pixels.plane());
+        }
+        const auto sink = create_image(folder / "a.exr", spec);
+        const int chunks = (window.height() + sink->chunk_height() - 1) / sink->chunk_height();
+        std::vector<EncodedChunk> parallel(static_cast<std::size_t>(chunks));
+        std::atomic<int> next = 0;
+        {
+            std::vector<std::jthread> threads;
+            for (int t = 0; t < 4; ++t)
+                threads.emplace_back([&] {
+                    for (int i = next++; i < chunks; i = next++)
+                        parallel[static_cast<std::size_t>(i)] = sink->encode(i, planes);
+                });
+        }
+        for (int i = 0; i < chunks; ++i)
+            ASSERT_EQ(parallel[static_cast<std::size_t>(i)].bytes, sink->encode(i, planes).bytes)
+                << compression << " " << i;
+    }
+}
+
+TEST(ExrWriter, PlanesThatDoNotFitAreAnInternalError) {
+    const TemporaryFolder folder;
+    SinkSpec spec = spec_for({0, 0, 20, 20}, {0, 0, 20, 20});
+    spec.channels = {{"R"}};
+    const auto sink = create_image(folder / "a.exr", spec);
+    Pixels fits(SampleType::kHalf, {0, 0, 20, 16}), small(SampleType::kHalf, {0, 0, 19, 20}),
+        other(SampleType::kFloat, {0, 0, 20, 20});
+    const auto encode = [&](int index, std::vector<Plane> planes) { sink->encode(index, planes); };
+    EXPECT_NO_THROW(encode(0, {fits.plane()}));
+    failure_of([&] { encode(1, {fits.plane()}); }, ErrorKind::kInternal);
+    failure_of([&] { encode(0, {small.plane()}); }, ErrorKind::kInternal);
+    failure_of([&] { encode(0, {other.plane()}); }, ErrorKind::kInternal);
+    failure_of([&] { encode(0, {}); }, ErrorKind::kInternal);
+    failure_of([&] { encode(2, {fits.plane()}); }, ErrorKind::kInternal);
 }
 
 TEST(IsFinished, LooksAtWindowsAndChannels) {
