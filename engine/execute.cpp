@@ -146,7 +146,7 @@ private:
 }  // namespace
 
 Executor::Executor(int threads, std::size_t memory) : threads_(threads), memory_(memory) {
-    for (int i = 0; i < threads; ++i) workers_.push_back(std::make_unique<TileWorker>());
+    for (int i = 0; i < threads; ++i) workers_.push_back(std::make_unique<TileWorker>(i));
 }
 
 void Executor::run(FrameSupply& supply, const std::atomic<bool>& cancel) {

@@ -112,7 +112,8 @@ private:
                 return count(frame, FrameOutcome::kSkipped), nullptr;
             for (const Sink& sink : resolved->sinks) remove_leftovers(sink.request.file);
             auto run = std::make_unique<FrameRun>(
-                make_plan(std::move(*resolved), {options_.threads, options_.tile, options_.memory}));
+                make_plan(std::move(*resolved), {options_.threads, options_.tile, options_.memory}),
+                options_.recorder);
             observer_.frame_started(frame, run->plan());
             return run;
         } catch (const Failure& f) {

@@ -193,6 +193,7 @@ private:
             RootNeed need;
             need.root.kind = Root::Kind::kKeep;
             need.root.store = static_cast<int>(i);
+            need.root.op = stores_[i].values.front().op;
             need.root.region = stores_[i].region;
             need.values = stores_[i].values;
             roots_at(stores_[i].first_sweep).push_back(std::move(need));
