@@ -50,6 +50,17 @@ std::optional<ResolvedFrame> resolve_checked(const Graph& graph, int frame, cons
     return resolved;
 }
 
+void check_format(const Sink& sink, Diagnostics& diagnostics) {
+    try {
+        if (sink.request.check) sink.request.check(sink.request.spec);
+    } catch (const Failure& f) {
+        Error e = f.error();
+        e.place = sink.place;
+        e.node = sink.title;
+        diagnostics.error(std::move(e));
+    }
+}
+
 bool any_of_graph(const std::vector<Error>& errors) {
     return std::ranges::any_of(errors, [](const Error& e) { return e.kind == ErrorKind::kGraph; });
 }
@@ -160,7 +171,8 @@ private:
 }  // namespace
 
 void check(const Graph& graph, int frame, const RenderOptions& options, Diagnostics& diagnostics) {
-    resolve_checked(graph, frame, options, true, diagnostics);
+    if (const auto resolved = resolve_checked(graph, frame, options, true, diagnostics))
+        for (const Sink& sink : resolved->sinks) check_format(sink, diagnostics);
     diagnostics.sort_by_place();
 }
 
