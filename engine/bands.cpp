@@ -84,10 +84,20 @@ std::size_t Bands::store(std::size_t plane, const View& in) {
 }
 
 void Bands::copy(std::size_t plane, const Bands& from, std::size_t from_plane, const Rect& region) {
+    if (types_[plane] != from.types_[from_plane]) return convert(plane, from, from_plane, region);
     const std::size_t bytes = sample_size(types_[plane]) * static_cast<std::size_t>(region.width());
     for (int y = region.y0; y < region.y1; ++y)
         std::memcpy(this->plane(band_of(y), plane).at(region.x0, y),
                     from.plane(from.band_of(y), from_plane).at(region.x0, y), bytes);
+}
+
+void Bands::convert(std::size_t plane, const Bands& from, std::size_t from_plane, const Rect& region) {
+    std::vector<float> floats(static_cast<std::size_t>(region.width()));
+    for (int y = region.y0; y < region.y1; ++y) {
+        const MutView row{floats.data(), region.width(), {region.x0, y, region.x1, y + 1}, region};
+        from.load(from_plane, row);
+        store(plane, row);
+    }
 }
 
 }  // namespace keyline

@@ -39,10 +39,12 @@ public:
     // The other way.  Returns how many finite values became infinity because half can't hold them.
     std::size_t store(std::size_t plane, const View& in);
 
-    // Samples of a plane of the same type, as they are.
+    // Samples of another's plane: as they are where it has the same type, else as floats in between.
     void copy(std::size_t plane, const Bands& from, std::size_t from_plane, const Rect& region);
 
 private:
+    void convert(std::size_t plane, const Bands& from, std::size_t from_plane, const Rect& region);
+
     using Memory = AlignedArray<std::byte>;
     const Memory& slot(int band) const { return bands_[static_cast<std::size_t>(band - first_)]; }
     int band_of(int y) const { return floor_div(y - origin_, height_); }

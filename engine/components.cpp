@@ -37,24 +37,25 @@ uint64_t mask(int from, int to) {
 // Appends the runs of a row.
 void append_runs(const BitRows& bits, int y, std::vector<Run>& runs) {
     const uint64_t* row = bits.row(y);
-    int start = kNone;
+    const int x0 = bits.rect().x0;
+    int start = kNone;  // of a run, from the row's first pixel
     for (int w = 0; w < bits.words(); ++w) {
         uint64_t word = row[w];
         // Flip once inside a run, so that the next change of either kind is the lowest set bit.
         uint64_t changes = start == kNone ? word : ~word;
         while (changes != 0) {
             const int bit = std::countr_zero(changes);
-            const int x = bits.rect().x0 + w * 64 + bit;
+            const int x = w * 64 + bit;
             if (start == kNone) {
                 start = x;
             } else {
-                runs.push_back({y, start, x});
+                runs.push_back({y, x0 + start, x0 + x});
                 start = kNone;
             }
             changes = (start == kNone ? word : ~word) & (bit == 63 ? 0 : ~uint64_t{0} << (bit + 1));
         }
     }
-    if (start != kNone) runs.push_back({y, start, bits.rect().x1});
+    if (start != kNone) runs.push_back({y, x0 + start, bits.rect().x1});
 }
 
 // Joins each run of [begin, end) with those of the row above that touch it, diagonals included.

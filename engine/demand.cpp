@@ -23,6 +23,11 @@ Rect demand_of_link(const Op& op, int slot, const Rect& out) {
     return intersect(op.operation->demand(out, slot), link.window);
 }
 
+Rect view_of_link(const Op& op, int slot, const Rect& out) {
+    const bool here = op.operation->halo() == Halo{} && op.operation->demand(out, slot) == out;
+    return here ? out : demand_of_link(op, slot, out);
+}
+
 Demand demand(const ResolvedFrame& frame) {
     Demand d;
     for (const Op& op : frame.ops) d.regions.emplace_back(op.outputs.size());

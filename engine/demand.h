@@ -25,4 +25,8 @@ Demand demand(const ResolvedFrame& frame);
 // The region of one value of a link that `out` of its operation is computed from.
 Rect demand_of_link(const Op& op, int slot, const Rect& out);
 
+// What compute() sees of a link for `out`: exactly `out` where the operation looks nowhere else (0 outside
+// the link's window), else what it demands inside the window.
+Rect view_of_link(const Op& op, int slot, const Rect& out);
+
 }  // namespace keyline

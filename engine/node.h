@@ -64,7 +64,8 @@ private:
 // The pixels of a node's inputs for one call of compute().
 //
 // A point operation's views cover exactly the region to compute, 0 outside the input's data window.  A
-// stencil's cover that region grown by its halo and clipped to the input's data window.
+// stencil's cover that region grown by its halo, a moving node's what its demand() says, both clipped to the
+// input's data window.
 class Inputs {
 public:
     struct Range {
@@ -185,6 +186,9 @@ public:
 
     // The type that a value has in its file; nothing where it is computed.
     virtual std::optional<SampleType> stored_type(ValueRef value) const = 0;
+
+    // Whether a node that says it changes nothing is left out.  No only where a test wants to see it compute.
+    virtual bool leaves_out_identities() const { return true; }
 };
 
 // The stream's channels that a port takes, in its order.  Throws Failure (kGraph) that says what is missing

@@ -232,7 +232,7 @@ std::vector<Port> connect(Builder& builder, const Params& params, int slots) {
 template <class T>
 Stream add_operation(Builder& builder, std::shared_ptr<const T> node, const std::vector<Port>& ports) {
     if constexpr (requires { node->identity(); })
-        if (node->identity()) return detail::leading_port(ports).stream;
+        if (node->identity() && builder.leaves_out_identities()) return detail::leading_port(ports).stream;
     if constexpr (PerChannelNode<T>)
         return detail::add_per_channel(builder, node, ports.front());
     else

@@ -144,6 +144,8 @@ public:
         return resolver_.result_.info(value).stored;
     }
 
+    bool leaves_out_identities() const override { return resolver_.options_.leave_out_identities; }
+
     void warn(std::string what) override {
         resolver_.diagnostics_.warning({ErrorKind::kFailed, {}, title(), std::move(what), {}});
     }

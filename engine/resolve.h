@@ -48,8 +48,9 @@ struct ResolvedFrame {
 };
 
 struct ResolveOptions {
-    std::filesystem::path ocio;  // the config; empty: the built-in one
-    bool every_node = false;     // resolve those too that nothing written uses
+    std::filesystem::path ocio;        // the config; empty: the built-in one
+    bool every_node = false;           // resolve those too that nothing written uses
+    bool leave_out_identities = true;  // nodes that say they change nothing
 };
 
 // Forward: display windows, data windows and channels of every stream, from the files' headers alone.  Faults

@@ -108,16 +108,14 @@ void TileWorker::run_step(std::size_t i) {
 }
 
 void TileWorker::run_compute(std::size_t i, const Op& op, Outputs outputs) {
-    const bool point = op.operation->halo() == Halo{};
     views_.clear();
     slots_.clear();
     std::size_t next = 0;
     for (std::size_t slot = 0; slot < op.links.size(); ++slot) {
         const Link& link = op.links[slot];
-        const Rect demanded = demand_of_link(op, static_cast<int>(slot), regions_[i]);
+        const Rect rect = view_of_link(op, static_cast<int>(slot), regions_[i]);
         slots_.push_back({views_.size(), link.values.size()});
-        for (const ValueRef v : link.values)
-            gather(sweep_->operands[i][next++], link, v, point ? regions_[i] : demanded);
+        for (const ValueRef v : link.values) gather(sweep_->operands[i][next++], link, v, rect);
     }
     op.operation->compute(Inputs(views_, slots_), outputs, scratch_);
 }

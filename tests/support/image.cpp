@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/image.h"
 
+#include "engine/bands.h"
+#include "engine/channels.h"
+#include "engine/io/image_sink.h"
 #include "engine/io/image_source.h"
 #include "engine/simd/half.h"
 
@@ -9,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <fmt/format.h>
 #include <limits>
 #include <ostream>
 #include <random>
@@ -35,6 +39,11 @@ bool same_sample(float a, float b) {
     return (std::isnan(a) && std::isnan(b)) || std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
 }
 
+bool near(float a, float b, double tolerance) {
+    return a == b || std::abs(static_cast<double>(a) - static_cast<double>(b)) <= tolerance;
+}
+
+// equal(a, b, x, y) decides on two samples.
 template <class Equal>
 ::testing::AssertionResult compare(const Image& a, const Image& b, Equal equal) {
     if (!(a.display == b.display) || !(a.window == b.window))
@@ -49,7 +58,7 @@ template <class Equal>
             for (int x = a.window.x0; x < a.window.x1; ++x) {
                 const float va = a.channels[c].samples[offset(a, x, y)],
                             vb = b.channels[c].samples[offset(b, x, y)];
-                if (equal(va, vb)) continue;
+                if (same_sample(va, vb) || equal(va, vb, x, y)) continue;
                 return ::testing::AssertionFailure() << "channel '" << a.channels[c].name << "' differs at "
                                                      << x << ',' << y << ": " << va << " and " << vb << '\n'
                                                      << a << b;
@@ -91,14 +100,45 @@ float& Image::at(std::string_view name, int x, int y) {
     return channel(name).samples.at(offset(*this, x, y));
 }
 
-Image ascii(std::initializer_list<std::string_view> rows) {
+Image ascii(std::initializer_list<std::string_view> rows, const std::string& channel) {
     const int width = rows.size() == 0 ? 0 : static_cast<int>(rows.begin()->size());
-    Image image({0, 0, width, static_cast<int>(rows.size())}, {"Y"});
-    return image.fill("Y", [&](int x, int y) {
+    Image image({0, 0, width, static_cast<int>(rows.size())}, {channel});
+    return image.fill(channel, [&](int x, int y) {
         const char c = rows.begin()[y][static_cast<std::size_t>(x)];
         if (c == 'x') return std::numeric_limits<float>::quiet_NaN();
         return c == '.' ? 0.0F : static_cast<float>(c - '0');
     });
+}
+
+Image only(const Image& image, const std::vector<std::string>& names) {
+    Image out = image;
+    out.channels.clear();
+    for (const std::string& name : names) out.channels.push_back(image.channel(name));
+    return out;
+}
+
+Image layer_of(const Image& image, const std::string& layer) {
+    Image out = image;
+    std::erase_if(out.channels,
+                  [&](const Image::Channel& c) { return split_channel(c.name).layer != layer; });
+    for (Image::Channel& c : out.channels) c.name = split_channel(c.name).base;
+    return out;
+}
+
+Image limited(Image image, float most) {
+    for (Image::Channel& c : image.channels)
+        for (float& s : c.samples) s = std::min(s, most);
+    return image;
+}
+
+Image cropped(const Image& image, const Rect& window) {
+    Image out = image;
+    out.display = out.window = window;
+    for (Image::Channel& c : out.channels) {
+        c.samples.assign(static_cast<std::size_t>(window.area()), 0);
+        out.fill(c.name, [&](int x, int y) { return image.at(c.name, x, y); });
+    }
+    return out;
 }
 
 Image moved(Image image, int dx, int dy) {
@@ -153,7 +193,51 @@ Image read_exr(const std::string& file) {
     return image;
 }
 
-bool same(const Image& a, const Image& b) { return static_cast<bool>(compare(a, b, same_sample)); }
+void write_exr(const std::string& file, const Image& image) {
+    SinkSpec spec{image.display, image.window, {}, image.metadata, Depth::kAuto, "zip"};
+    for (const Image::Channel& c : image.channels) spec.channels.push_back({c.name, c.type});
+    const auto sink = create_image(file, spec);
+    for (int i = 0, y = sink->region().y0; y < sink->region().y1; ++i, y += sink->chunk_height()) {
+        const Rect chunk =
+            intersect(sink->region(), {sink->region().x0, y, sink->region().x1, y + sink->chunk_height()});
+        std::vector<Bands> bands;
+        std::vector<Plane> planes;
+        for (std::size_t c = 0; c < image.channels.size(); ++c) {
+            Bands& band =
+                bands.emplace_back(chunk, std::vector{sink->channels()[c].type}, chunk.y0, chunk.height());
+            band.allocate(0, true);
+            const Image part = cropped(only(image, {image.channels[c].name}), chunk);
+            band.store(0, {part.channels[0].samples.data(), chunk.width(), chunk, chunk});
+            planes.push_back(band.plane(0, 0));
+        }
+        sink->commit(sink->encode(i, planes));
+    }
+    sink->finish();
+}
+
+Image plate(const std::string& layer, int frame) {
+    const Image all = read_exr(fmt::format(KEYLINE_GRAPHS "/plates/street.{:04}.exr", frame));
+    return limited(layer_of(all, "ViewLayer." + layer), 16);
+}
+
+Image largest_within(const Image& image, int reach) {
+    Image across(image.window, {"Y"}), out(image.window, {"Y"});
+    across.fill("Y", [&](int x, int y) {
+        float most = 0;
+        for (const Image::Channel& c : image.channels)
+            for (int dx = -reach; dx <= reach; ++dx)
+                most = std::fmax(most, std::abs(image.at(c.name, x + dx, y)));
+        return most;
+    });
+    return out.fill("Y", [&](int x, int y) {
+        float most = 0;
+        for (int dy = -reach; dy <= reach; ++dy)
+            most = std::max(most, std::as_const(across).at("Y", x, y + dy));
+        return most;
+    });
+}
+
+bool same(const Image& a, const Image& b) { return static_cast<bool>(compare_images("", "", a, b)); }
 
 std::ostream& operator<<(std::ostream& out, const Image& image) {
     out << "image, display " << image.display << ", data " << image.window << '\n';
@@ -171,14 +255,18 @@ std::ostream& operator<<(std::ostream& out, const Image& image) {
 }
 
 ::testing::AssertionResult compare_images(const char*, const char*, const Image& a, const Image& b) {
-    return compare(a, b, same_sample);
+    return compare(a, b, [](float, float, int, int) { return false; });
 }
 
 ::testing::AssertionResult compare_images_near(const char*, const char*, const char*, const Image& a,
                                                const Image& b, double tolerance) {
-    return compare(a, b, [&](float x, float y) {
-        return same_sample(x, y) || x == y ||
-               std::abs(static_cast<double>(x) - static_cast<double>(y)) <= tolerance;
+    return compare(a, b, [&](float va, float vb, int, int) { return near(va, vb, tolerance); });
+}
+
+::testing::AssertionResult agree_within_reach(const Image& a, const Image& b, const Image& in, int reach) {
+    const Image largest = largest_within(in, reach);
+    return compare(a, b, [&](float va, float vb, int x, int y) {
+        return near(va, vb, 1e-5 * static_cast<double>(largest.at("Y", x, y)));
     });
 }
 

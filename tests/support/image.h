@@ -56,8 +56,20 @@ struct Image {
     }
 };
 
-// One channel 'Y' drawn in characters: '.' is 0, a digit itself, 'x' NaN.  Its corner is the origin.
-Image ascii(std::initializer_list<std::string_view> rows);
+// One channel drawn in characters: '.' is 0, a digit itself, 'x' NaN.  Its corner is the origin.
+Image ascii(std::initializer_list<std::string_view> rows, const std::string& channel = "Y");
+
+// Some of an image's channels, in the order given.
+Image only(const Image& image, const std::vector<std::string>& names);
+
+// The channels of a layer, by their names in it.
+Image layer_of(const Image& image, const std::string& layer);
+
+// Samples above `most` become `most`.
+Image limited(Image image, float most);
+
+// What lies inside a window, which becomes both of the image's windows; 0 where the image has nothing.
+Image cropped(const Image& image, const Rect& window);
 
 // Moves both windows.
 Image moved(Image image, int dx, int dy);
@@ -68,6 +80,15 @@ Image noise(const Rect& window, const std::vector<std::string>& names, unsigned 
 
 // Reads an EXR file as a node would get it.
 Image read_exr(const std::string& file);
+
+// Writes one, each channel in its own type.
+void write_exr(const std::string& file, const Image& image);
+
+// A layer of a render of a street, 480 × 270, half float.  Colour ends at 16: fireflies would hide all else.
+Image plate(const std::string& layer = "Combined", int frame = 1);
+
+// By pixel: the largest absolute value of all channels within `reach` pixels, NaN passed over.
+Image largest_within(const Image& image, int reach);
 
 // The same windows, channels and bits (any NaN equals any other).
 bool same(const Image& a, const Image& b);
@@ -84,9 +105,15 @@ std::ostream& operator<<(std::ostream& out, const Image& image);
 #define EXPECT_IMAGE_NEAR(actual, expected, tolerance) \
     EXPECT_PRED_FORMAT3(::keyline::testing::compare_images_near, actual, expected, tolerance)
 
+// As NODES promises: within 1e-5 of the largest value of the input `in` at most `reach` pixels away.
+#define EXPECT_IMAGE_AGREES(actual, expected, in, reach) \
+    EXPECT_TRUE(::keyline::testing::agree_within_reach(actual, expected, in, reach))
+
 #include <gtest/gtest.h>
 
 namespace keyline::testing {
+
+::testing::AssertionResult agree_within_reach(const Image& a, const Image& b, const Image& in, int reach);
 
 ::testing::AssertionResult compare_images(const char* a_text, const char* b_text, const Image& a,
                                           const Image& b);

@@ -9,16 +9,17 @@
 #include "engine/simd/half.h"
 
 #include <cstring>
+#include <fmt/format.h>
 #include <mutex>
 
 namespace keyline::testing {
 
 namespace {
 
-// Images that the graphs of this process read, and the last one written.
+// Images that the graph of this process reads, and those that it writes.
 struct Shelf {
     std::vector<Image> images;
-    Image written;
+    std::vector<Image> written;
 };
 
 Shelf& shelf() {
@@ -130,9 +131,12 @@ struct CaptureNode {
     static constexpr Info info{"capture", "Hands an image to the test."};
     struct Params {
         Input in;
-        static constexpr auto fields = declare(input(&Params::in, "in", "The image."));
+        int place = 0;
+        static constexpr auto fields =
+            declare(input(&Params::in, "in", "The image."),
+                    field(&Params::place, "place", "Which of the images written it is."));
     };
-    explicit CaptureNode(const Params& p) : in(p.in) {}
+    explicit CaptureNode(const Params& p) : in(p.in), place(static_cast<std::size_t>(p.place)) {}
 
     void write(Builder& builder) const {
         SinkRequest request;
@@ -143,13 +147,14 @@ struct CaptureNode {
         for (const StreamChannel& c : request.stream.channels)
             request.spec.channels.push_back(
                 {c.name, builder.stored_type(c.value).value_or(SampleType::kFloat)});
-        request.create = [](const SinkSpec& spec) {
-            return std::make_unique<CaptureSink>(spec, shelf().written);
+        request.create = [place = place](const SinkSpec& spec) {
+            return std::make_unique<CaptureSink>(spec, shelf().written[place]);
         };
         builder.add_sink(std::move(request));
     }
 
     const Input in;
+    const std::size_t place;
 };
 
 void register_nodes() {
@@ -168,46 +173,59 @@ void register_nodes() {
 
 }  // namespace
 
-Image run_graph(const Json& nodes, const std::string& id,
-                const std::map<std::string, std::vector<Image>>& inputs, const RunOptions& options) {
+ResolvedFrame resolve_graph(const Json& nodes, const std::vector<std::string>& ids, const Sequences& inputs,
+                            int frame, bool leave_out_identities) {
     register_nodes();
     shelf() = {};
-    Json graph{{"keyline", 1}, {"nodes", nodes}};
+    shelf().written.resize(ids.size());
+    Json all = nodes;
     for (const auto& [name, images] : inputs) {
-        Json indices = Json::array();
+        std::vector<Json> indices;
         for (const Image& image : images) {
-            indices.push_back(shelf().images.size());
+            indices.emplace_back(shelf().images.size());
             shelf().images.push_back(image);
         }
-        graph["nodes"][name] = {{"type", "memory"}, {"images", indices}};
+        all.set(name, {{"type", "memory"}, {"images", Json::array(indices)}});
     }
-    graph["nodes"]["captured"] = {{"type", "capture"}, {"in", id}};
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        all.set(fmt::format("captured{}", i), {{"type", "capture"}, {"in", ids[i]}, {"place", i}});
+    const Json graph{{"keyline", 1}, {"nodes", all}};
     Diagnostics diagnostics;
-    const auto loaded = Graph::parse(graph.dump(1), "test.json", ".", {}, diagnostics);
+    const auto loaded = Graph::parse(graph.text(), "test.json", ".", {}, diagnostics);
     if (!loaded) throw_all(diagnostics);
-    auto resolved = resolve(*loaded, options.frame, {}, diagnostics);
+    ResolveOptions options;
+    options.leave_out_identities = leave_out_identities;
+    auto resolved = resolve(*loaded, frame, options, diagnostics);
     if (!resolved) throw_all(diagnostics);
-    Executor(options.threads, 0)
-        .run(std::make_unique<FrameRun>(
-                 make_plan(std::move(*resolved), {options.threads, options.tile, options.memory})),
-             false);
-    return std::move(shelf().written);
+    return std::move(*resolved);
+}
+
+std::vector<Image> render(Plan plan) {
+    const int threads = plan.threads;
+    Executor(threads, 0).run(std::make_unique<FrameRun>(std::move(plan)), false);
+    return shelf().written;
+}
+
+Image run_graph(const Json& nodes, const std::string& id, const Sequences& inputs,
+                const RunOptions& options) {
+    ResolvedFrame frame = resolve_graph(nodes, {id}, inputs, options.frame);
+    return render(make_plan(std::move(frame), {options.threads, options.tile, options.memory})).front();
 }
 
 Image run_graph(const Json& nodes, const std::string& id, const std::map<std::string, Image>& inputs,
                 const RunOptions& options) {
-    std::map<std::string, std::vector<Image>> sequences;
+    Sequences sequences;
     for (const auto& [name, image] : inputs) sequences[name] = {image};
     return run_graph(nodes, id, sequences, options);
 }
 
 Image run(const std::string& type, const Json& params, const std::map<std::string, Image>& inputs,
           const RunOptions& options) {
-    Json node = params.is_null() ? Json::object() : params;
-    node["type"] = type;
+    Json node = params;
+    node.set("type", type);
     std::map<std::string, Image> named;
     for (const auto& [port, image] : inputs) {
-        node[port] = "input-" + port;
+        node.set(port, "input-" + port);
         named["input-" + port] = image;
     }
     return run_graph({{"node", node}}, "node", named, options);

@@ -4,21 +4,24 @@
 
 #include "engine/error.h"
 #include "tests/support/image.h"
+#include "tests/support/json.h"
 
 #include <cstddef>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 // Nodes and graphs on images in memory, through the whole engine: graph, plan, tiles.
 //
-//     EXPECT_IMAGE(run("dilate", {{"radius", 1}}, ascii({"...", ".2.", "..."})), ascii({".2.", "222",
-//     ".2."}));
+//     EXPECT_IMAGE(run("dilate", {{"radius", 1}}, ascii({"...", ".2.", "..."})),
+//                  ascii({".2.", "222", ".2."}));
+
+namespace keyline {
+struct Plan;
+struct ResolvedFrame;
+}  // namespace keyline
 
 namespace keyline::testing {
-
-using Json = nlohmann::ordered_json;
 
 struct RunOptions {
     int threads = 2;
@@ -35,12 +38,19 @@ Image run(const std::string& type, const Json& params, const std::map<std::strin
 
 // The result of node `id` of a graph's nodes; `inputs` stand in it as nodes by their names.  An input of many
 // images is a sequence: frame f is image f, counted from 0.
+using Sequences = std::map<std::string, std::vector<Image>>;
 Image run_graph(const Json& nodes, const std::string& id, const std::map<std::string, Image>& inputs,
                 const RunOptions& options = {});
-Image run_graph(const Json& nodes, const std::string& id,
-                const std::map<std::string, std::vector<Image>>& inputs, const RunOptions& options = {});
+Image run_graph(const Json& nodes, const std::string& id, const Sequences& inputs,
+                const RunOptions& options = {});
 
 // What such a run says that went wrong; "" where it went well.
 std::string error_of(const std::string& type, const Json& params, const Image& in);
+
+// The same in steps, for tests of the engine itself: the results of several nodes at once.  At most one such
+// frame exists at a time, as its images lie in one place.
+ResolvedFrame resolve_graph(const Json& nodes, const std::vector<std::string>& ids, const Sequences& inputs,
+                            int frame = 1, bool leave_out_identities = true);
+std::vector<Image> render(Plan plan);
 
 }  // namespace keyline::testing

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/demand.h"
+#include "engine/resolve.h"
+#include "tests/contract/contract.h"
+#include "tests/support/draw.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <exception>
+#include <fmt/format.h>
+#include <limits>
+
+namespace keyline::testing {
+
+namespace {
+
+constexpr unsigned kSeed = 3;
+constexpr int kRim = 24;  // pixels of poison around what an operation may read
+
+constexpr float kPoisons[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                              -1e30F};
+
+// Pixels of a rectangle amid others that must not matter.
+struct Framed {
+    Rect rect, window;
+    std::ptrdiff_t stride;
+    std::vector<float> memory;
+
+    Framed(const Rect& r, const Rect& w, float around)
+        : rect(r),
+          window(w),
+          stride(r.width() + 2 * kRim),
+          memory(static_cast<std::size_t>(stride) * static_cast<std::size_t>(r.height() + 2 * kRim), around) {
+    }
+    float* at(int x, int y) { return memory.data() + (y - rect.y0 + kRim) * stride + (x - rect.x0 + kRim); }
+    MutView view() { return {at(rect.x0, rect.y0), stride, rect, window}; }
+};
+
+// One operation of a node, fed with noise.
+class Bench {
+public:
+    Bench(const Op& op, Draw& draw) : op_(op), window_(op.outputs.front().window) {
+        for (const Link& link : op.links)
+            for (std::size_t k = 0; k < link.values.size(); ++k)
+                images_.push_back(
+                    noise(link.window, {"Y"}, static_cast<unsigned>(draw.whole(0, 1 << 20)), -0.25F, 1));
+    }
+
+    Complaints compare_regions(Draw& draw) const {
+        std::vector<Framed> whole = computed(window_, 0);
+        for (int i = 0; i < 8; ++i) {
+            const Rect region = some_region(draw);
+            for (const float poison : kPoisons) {
+                std::vector<Framed> part = computed(region, poison);
+                const std::string found = compare(region, part, whole);
+                if (!found.empty())
+                    return {fmt::format("{} around the demanded pixels of a region of {} × {}: {}", poison,
+                                        region.width(), region.height(), found)};
+            }
+        }
+        return {};
+    }
+
+    // Whole-frame: the frame in blocks of several sizes.
+    Complaints compare_blocks() const {
+        std::vector<Framed> whole = reduced(window_.width() + window_.height(), 0);
+        for (const int size : {1, 5, 16})
+            for (const float poison : kPoisons) {
+                const std::vector<Framed> parts = reduced(size, poison);
+                for (std::size_t o = 0; o < whole.size(); ++o)
+                    if (!std::ranges::equal(whole[o].memory, parts[o].memory, same_bits))
+                        return {fmt::format("in blocks of {}, with {} around each, the frame is another",
+                                            size, poison)};
+            }
+        return {};
+    }
+
+private:
+    static constexpr float kUntouched = 12345;
+
+    static bool same_bits(float a, float b) {
+        return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b) || (std::isnan(a) && std::isnan(b));
+    }
+
+    Rect some_region(Draw& draw) const {
+        const int x = draw.whole(window_.x0, window_.x1 - 1), y = draw.whole(window_.y0, window_.y1 - 1);
+        return intersect(window_, {x, y, x + draw.whole(1, 20), y + draw.whole(1, 12)});
+    }
+
+    // What the operation is given of one input value: noise over `rect`, 0 outside the input's window.
+    Framed framed(std::size_t value, const Rect& rect, const Rect& window, float poison) const {
+        Framed out(rect, window, poison);
+        for (int y = rect.y0; y < rect.y1; ++y)
+            for (int x = rect.x0; x < rect.x1; ++x) *out.at(x, y) = images_[value].at("Y", x, y);
+        return out;
+    }
+
+    struct Gathered {
+        std::vector<Framed> memory;
+        std::vector<View> views;
+        std::vector<Inputs::Range> slots;
+        Inputs inputs() const { return {views, slots}; }
+    };
+    template <class RectOf>
+    Gathered gather(const RectOf& rect_of, float poison) const {
+        Gathered g;
+        for (std::size_t s = 0; s < op_.links.size(); ++s) {
+            g.slots.push_back({g.memory.size(), op_.links[s].values.size()});
+            for (std::size_t k = 0; k < op_.links[s].values.size(); ++k)
+                g.memory.push_back(
+                    framed(g.memory.size(), rect_of(static_cast<int>(s)), op_.links[s].window, poison));
+        }
+        for (Framed& f : g.memory) g.views.push_back(f.view());
+        return g;
+    }
+
+    std::vector<Framed> computed(const Rect& region, float poison) const {
+        const Gathered g = gather([&](int slot) { return view_of_link(op_, slot, region); }, poison);
+        std::vector<Framed> out(op_.outputs.size(), Framed(region, window_, kUntouched));
+        std::vector<MutView> views;
+        for (Framed& f : out) views.push_back(f.view());
+        Scratch scratch;
+        op_.operation->compute(g.inputs(), views, scratch);
+        return out;
+    }
+
+    std::vector<Framed> reduced(int size, float poison) const {
+        const Reduction& reduction = *op_.operation->reduction();
+        Scratch scratch;
+        const auto state = reduction.start(window_);
+        for (int round = 0; round < reduction.rounds(); ++round) {
+            for (int y = window_.y0; y < window_.y1; y += size)
+                for (int x = window_.x0; x < window_.x1; x += size) {
+                    const Rect block = intersect(window_, {x, y, x + size, y + size});
+                    const Gathered g = gather([&](int) { return block; }, poison);
+                    reduction.fold(*state, *reduction.map(*state, g.inputs(), block, scratch));
+                    scratch.reset();
+                }
+            reduction.finish(*state);
+        }
+        std::vector<Framed> out(op_.outputs.size(), Framed(window_, window_, kUntouched));
+        std::vector<MutView> views;
+        for (Framed& f : out) views.push_back(f.view());
+        reduction.apply(*state, views, scratch);
+        return out;
+    }
+
+    // What of a computed region is not as in the whole, or lies beside it; "" where all is well.
+    static std::string compare(const Rect& region, std::vector<Framed>& part, std::vector<Framed>& whole) {
+        for (std::size_t o = 0; o < part.size(); ++o)
+            for (int y = region.y0 - kRim; y < region.y1 + kRim; ++y)
+                for (int x = region.x0 - kRim; x < region.x1 + kRim; ++x) {
+                    const bool inside = region.contains(x, y);
+                    const float wanted = inside ? *whole[o].at(x, y) : kUntouched, got = *part[o].at(x, y);
+                    if (same_bits(wanted, got)) continue;
+                    return inside ? fmt::format("{} at {},{}, which is {} in the whole", got, x, y, wanted)
+                                  : fmt::format("{} was written at {},{}, outside the region", got, x, y);
+                }
+        return "";
+    }
+
+    const Op& op_;
+    const Rect window_;
+    std::vector<Image> images_;  // by value of all links
+};
+
+}  // namespace
+
+Complaints check_halo(const NodeType& type) {
+    Draw draw(kSeed);
+    for (int i = 0; i < 8; ++i) {
+        NodeCase c;
+        try {
+            c = draw_case(type, draw);
+            const ResolvedFrame frame = c.resolve(false);
+            for (const Op& op : frame.ops) {
+                if (!op.operation || op.outputs.front().window.empty()) continue;
+                const Bench bench(op, draw);
+                Complaints found =
+                    op.operation->reduction() ? bench.compare_blocks() : bench.compare_regions(draw);
+                if (!found.empty()) return {found.front() + "\n" + c.text()};
+            }
+        } catch (const std::exception& e) {
+            return {fmt::format("threw: {}\n{}", e.what(), c.text())};
+        }
+    }
+    return {};
+}
+
+}  // namespace keyline::testing

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/interpret.h"
+
+#include "engine/demand.h"
+#include "engine/simd/half.h"
+
+#include <cstring>
+
+namespace keyline::testing {
+
+namespace {
+
+// Samples over a window, with room behind the last for a vector to be loaded from there.
+struct Samples {
+    Rect window;
+    std::vector<float> floats;
+
+    explicit Samples(const Rect& w) : window(w), floats(static_cast<std::size_t>(w.area()) + 64) {}
+    float* at(int x, int y) {
+        return floats.data() + std::ptrdiff_t{y - window.y0} * window.width() + (x - window.x0);
+    }
+    MutView view(const Rect& behind) { return {floats.data(), window.width(), window, behind}; }
+};
+
+class Interpreter {
+public:
+    explicit Interpreter(const ResolvedFrame& frame) : frame_(frame) {
+        for (const Op& op : frame.ops) {
+            std::vector<Samples>& outputs = values_.emplace_back();
+            for (const ValueInfo& v : op.outputs) outputs.emplace_back(v.window);
+            if (op.source)
+                decode(op, outputs);
+            else if (!op.outputs.front().window.empty())
+                compute(op, outputs);
+        }
+    }
+
+    Image picture(const SinkRequest& request) {
+        Image image(request.stream.window, std::vector<std::string>{});
+        image.display = request.stream.display;
+        image.metadata = *request.stream.metadata;
+        for (std::size_t c = 0; c < request.stream.channels.size(); ++c) {
+            const Samples whole = gathered(request.stream.channels[c].value, image.window, image.window);
+            image.channels.push_back({request.stream.channels[c].name,
+                                      request.spec.channels[c].type,
+                                      {whole.floats.begin(), whole.floats.begin() + image.window.area()}});
+        }
+        return image;
+    }
+
+private:
+    static void decode(const Op& op, std::vector<Samples>& outputs) {
+        const ImageHeader& header = op.source->header();
+        for (std::size_t i = 0; i < outputs.size(); ++i) {
+            const ChannelGroup& group = header.groups[op.source_group[i]];
+            const SampleType type = group.channels[op.source_channel[i]].type;
+            const auto n = static_cast<std::size_t>(group.window.area());
+            std::vector<std::byte> bytes(n * sample_size(type));
+            std::vector<Plane> planes(group.channels.size());
+            planes[op.source_channel[i]] = {
+                bytes.data(), static_cast<std::ptrdiff_t>(sample_size(type)) * group.window.width(), type,
+                group.window};
+            for (int row = 0; row < group.rows(); ++row)
+                for (int column = 0; column < group.columns(); ++column)
+                    op.source->read_chunk(op.source_group[i], column, row, planes);
+            to_floats(bytes.data(), type, outputs[i].floats.data(), n);
+        }
+    }
+
+    static void to_floats(const std::byte* in, SampleType type, float* out, std::size_t n) {
+        if (type == SampleType::kHalf)
+            half_to_float(reinterpret_cast<const uint16_t*>(in), out, n);
+        else if (type == SampleType::kUint)
+            uint_to_float(reinterpret_cast<const uint32_t*>(in), out, n);
+        else
+            std::memcpy(out, in, n * sizeof(float));
+    }
+
+    // A value over `rect`, 0 outside its own window and outside `window`.
+    Samples gathered(ValueRef v, const Rect& rect, const Rect& window) {
+        Samples out(rect);
+        Samples& from = values_[static_cast<std::size_t>(v.op)][static_cast<std::size_t>(v.output)];
+        const Rect valid = intersect(intersect(rect, window), from.window);
+        for (int y = valid.y0; y < valid.y1; ++y)
+            std::memcpy(out.at(valid.x0, y), from.at(valid.x0, y),
+                        static_cast<std::size_t>(valid.width()) * sizeof(float));
+        return out;
+    }
+
+    void compute(const Op& op, std::vector<Samples>& outputs) {
+        const Rect& window = op.outputs.front().window;
+        const bool whole_frame = op.operation->reduction() != nullptr;
+        std::vector<Samples> inputs;
+        std::vector<View> views;
+        std::vector<Inputs::Range> slots;
+        for (std::size_t s = 0; s < op.links.size(); ++s) {
+            const Link& link = op.links[s];
+            const Rect rect = whole_frame ? window : view_of_link(op, static_cast<int>(s), window);
+            slots.push_back({inputs.size(), link.values.size()});
+            for (const ValueRef v : link.values) inputs.push_back(gathered(v, rect, link.window));
+        }
+        for (std::size_t s = 0, i = 0; s < op.links.size(); ++s)
+            for (std::size_t k = 0; k < slots[s].count; ++k, ++i)
+                views.push_back(inputs[i].view(op.links[s].window));
+        std::vector<MutView> results;
+        for (Samples& o : outputs) results.push_back(o.view(o.window));
+        Scratch scratch;
+        if (whole_frame)
+            reduce(*op.operation->reduction(), Inputs(views, slots), window, results);
+        else
+            op.operation->compute(Inputs(views, slots), results, scratch);
+    }
+
+    // One block that is the whole frame.
+    static void reduce(const Reduction& reduction, const Inputs& in, const Rect& window, Outputs out) {
+        Scratch scratch;
+        const std::unique_ptr<Memory> state = reduction.start(window);
+        for (int round = 0; round < reduction.rounds(); ++round) {
+            const std::unique_ptr<Memory> partial = reduction.map(*state, in, window, scratch);
+            reduction.fold(*state, *partial);
+            reduction.finish(*state);
+        }
+        reduction.apply(*state, out, scratch);
+    }
+
+    const ResolvedFrame& frame_;
+    std::vector<std::vector<Samples>> values_;  // by operation and output
+};
+
+}  // namespace
+
+std::vector<Image> interpret(const ResolvedFrame& frame) {
+    Interpreter interpreter(frame);
+    std::vector<Image> out;
+    for (const Sink& sink : frame.sinks) out.push_back(interpreter.picture(sink.request));
+    return out;
+}
+
+}  // namespace keyline::testing
