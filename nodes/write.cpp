@@ -59,6 +59,7 @@ struct Write {
                                             builder.colors().convert("scene_linear", params.colorspace));
         request.file = params.file.at(builder.frame());
         request.spec = spec(builder, request.stream);
+        request.check = [file = request.file](const SinkSpec& s) { check_image(file, s); };
         request.create = [file = request.file](const SinkSpec& s) { return create_image(file, s); };
         builder.add_sink(std::move(request));
     }

@@ -222,7 +222,7 @@ void limit_resources(uint64_t bytes) {
     setrlimit(RLIMIT_CPU, &limit);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     getrlimit(RLIMIT_AS, &limit);
-    limit.rlim_cur = (uint64_t{256} << 20) + 16 * bytes;
+    limit.rlim_cur = (uint64_t{256} << 20) + 10 * bytes;
     setrlimit(RLIMIT_AS, &limit);
 #endif
 }

@@ -187,8 +187,10 @@ Image run_graph(const Json& nodes, const std::string& id,
     if (!loaded) throw_all(diagnostics);
     auto resolved = resolve(*loaded, options.frame, {}, diagnostics);
     if (!resolved) throw_all(diagnostics);
-    FrameRun frame(make_plan(std::move(*resolved), {options.threads, options.tile, options.memory}));
-    Executor(options.threads).run(frame, false);
+    Executor(options.threads, 0)
+        .run(std::make_unique<FrameRun>(
+                 make_plan(std::move(*resolved), {options.threads, options.tile, options.memory})),
+             false);
     return std::move(shelf().written);
 }
 
