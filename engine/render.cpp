@@ -3,11 +3,12 @@
 #include "engine/render.h"
 
 #include "engine/execute.h"
+#include "engine/output_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
 #include <memory>
+#include <new>
 
 namespace keyline {
 
@@ -17,35 +18,11 @@ ResolveOptions resolve_options(const Graph& graph, const RenderOptions& options,
     return {options.ocio.empty() ? graph.ocio() : options.ocio, every_node};
 }
 
-std::string identity_of(const std::filesystem::path& file) {
-    std::error_code error;
-    const auto canonical = std::filesystem::weakly_canonical(file, error);
-    return error ? file.string() : canonical.string();
-}
-
-// Two outputs to one file, or one onto an input.
-void check_outputs(const ResolvedFrame& frame, const std::vector<std::filesystem::path>& inputs,
-                   Diagnostics& diagnostics) {
-    std::map<std::string, std::string> taken;  // file → who uses it
-    for (const auto& file : inputs) taken.emplace(identity_of(file), "read by this run");
-    for (const Sink& sink : frame.sinks) {
-        const auto [it, is_new] =
-            taken.emplace(identity_of(sink.request.file), "written by " + sink.title + " too");
-        if (!is_new)
-            diagnostics.error({ErrorKind::kGraph, sink.place, sink.title,
-                               fmt::format("{} is {}", in_quotes(sink.request.file.string()), it->second),
-                               "write to another file"});
-    }
-}
-
 std::optional<ResolvedFrame> resolve_checked(const Graph& graph, int frame, const RenderOptions& options,
                                              bool every_node, Diagnostics& diagnostics) {
     auto resolved = resolve(graph, frame, resolve_options(graph, options, every_node), diagnostics);
     if (!resolved) return std::nullopt;
-    std::vector<std::filesystem::path> inputs;
-    for (const Op& op : resolved->ops)
-        if (op.source) inputs.push_back(op.source->header().file);
-    check_outputs(*resolved, inputs, diagnostics);
+    check_outputs(*resolved, diagnostics);
     if (!diagnostics.ok()) return std::nullopt;
     return resolved;
 }
@@ -103,6 +80,8 @@ private:
     bool first_frame_is_sound() {
         Diagnostics diagnostics;
         check(graph_, options_.frames.front(), options_, diagnostics);
+        if (diagnostics.ok())
+            check_outputs(graph_, options_.frames, resolve_options(graph_, options_, false), diagnostics);
         for (const Error& w : diagnostics.warnings()) observer_.warning(w);
         if (!any_of_graph(diagnostics.errors())) return true;
         for (const Error& e : diagnostics.errors()) observer_.error(e);
