@@ -193,6 +193,7 @@ std::vector<Part> read_parts(const InputFile& file, const ReadContext& context,
         static_cast<std::size_t>(count) != attributes.size())
         damaged(file, fmt::format("{} parts were expected, {} are there", count, attributes.size()));
     std::vector<Part> parts;
+    parts.reserve(attributes.size());
     for (int i = 0; i < count; ++i)
         parts.push_back(
             PartReader(file, context.get(), i).read(std::move(attributes[static_cast<std::size_t>(i)])));

@@ -130,12 +130,13 @@ TEST(ExrWriter, DepthDecidesTheTypes) {
     const TemporaryFolder folder;
     SinkSpec spec = spec_for({0, 0, 4, 4}, {0, 0, 4, 4});
     spec.channels = {{"A"}, {"Z", SampleType::kFloat}, {"id", SampleType::kUint}};
-    spec.depth = Depth::kFloat;
-    for (const ChannelInfo& c : create_image(folder / "a.exr", spec)->channels())
-        EXPECT_EQ(c.type, SampleType::kFloat) << c.name;
-    spec.depth = Depth::kHalf;
-    for (const ChannelInfo& c : create_image(folder / "a.exr", spec)->channels())
-        EXPECT_EQ(c.type, SampleType::kHalf) << c.name;
+    const auto expect_all = [&](Depth depth, SampleType type) {
+        spec.depth = depth;
+        const auto sink = create_image(folder / "a.exr", spec);
+        for (const ChannelInfo& c : sink->channels()) EXPECT_EQ(c.type, type) << c.name;
+    };
+    expect_all(Depth::kFloat, SampleType::kFloat);
+    expect_all(Depth::kHalf, SampleType::kHalf);
     spec.depth = Depth::kAuto;
     EXPECT_EQ(create_image(folder / "a.exr", spec)->channels(), spec.channels);
 }
