@@ -9,6 +9,11 @@
 #include "cli/report.h"
 #include "cli/signals.h"
 
+#include <fmt/format.h>
+#include <fstream>
+#include <iostream>
+#include <sys/resource.h>
+
 namespace keyline::cli {
 
 namespace {
@@ -17,7 +22,18 @@ struct RenderArguments {
     GraphArguments graph;
     std::string progress = "auto";
     bool skip_existing = false, keep_going = false;
+    std::string profile;  // the trace's file; empty: none
 };
+
+// Where the time went: a table on standard output, a trace in the file.
+void write_profile(const Recorder& recorder, const std::string& file) {
+    std::ofstream out(file);
+    out << recorder.chrome_trace() << std::flush;
+    if (!out) fail(ErrorKind::kOutput, "cannot write the profile " + in_quotes(file));
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    std::cout << recorder.table() << fmt::format("{:9}  MiB of memory at most\n", usage.ru_maxrss >> 10);
+}
 
 void tell(const Diagnostics& diagnostics, Progress& progress) {
     for (const Error& w : diagnostics.warnings()) progress.warning(w);
@@ -51,11 +67,14 @@ int run(const RenderArguments& arguments) {
     tell(diagnostics, progress);
     if (!diagnostics.ok()) return exit_status(diagnostics);
 
+    Recorder recorder;
+    if (!arguments.profile.empty()) options.recorder = &recorder;
     const StopOnSignal stop;
     progress.start(options.frames.size());
     try {
         const RenderResult result = render(*loaded.graph, options, progress, stop.requested());
         progress.end(result);
+        if (options.recorder) write_profile(recorder, arguments.profile);
         return result.status;
     } catch (const Failure& f) {
         progress.end({});
@@ -75,6 +94,8 @@ void add_render(CLI::App& program, Chosen& chosen) {
         "--skip-existing", arguments->skip_existing,
         "Leave finished outputs alone: those that open and have the planned windows and channels");
     command.add_flag("--keep-going", arguments->keep_going, "Go on with the next frame after one fails");
+    add_value_option(command, "--profile", arguments->profile, "FILE",
+                     "Print where the time went and write it to FILE as a Chrome trace");
     add_value_option(command, "--progress", arguments->progress, "MODE",
                      "auto (a bar on a terminal, lines elsewhere), bar, lines, json or none");
     command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });

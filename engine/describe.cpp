@@ -8,20 +8,33 @@
 
 namespace keyline {
 
+namespace {
+
+std::vector<ChannelInfo> in_rgba_order(std::span<const ChannelInfo> channels) {
+    std::vector<std::string> names;
+    for (const ChannelInfo& c : channels) names.push_back(c.name);
+    std::vector<ChannelInfo> out;
+    for (const std::size_t i : rgba_order(names)) out.push_back(channels[i]);
+    return out;
+}
+
+}  // namespace
+
 std::string describe(const Rect& rect) {
     if (rect.empty()) return "empty";
     return fmt::format("{} × {} at ({}, {})", rect.width(), rect.height(), rect.x0, rect.y0);
 }
 
 std::string describe(std::span<const ChannelInfo> channels) {
+    const std::vector<ChannelInfo> sorted = in_rgba_order(channels);
     std::string out;
-    for (std::size_t i = 0; i < channels.size();) {
-        const ChannelName first = split_channel(channels[i].name);
-        const SampleType type = channels[i].type;
+    for (std::size_t i = 0; i < sorted.size();) {
+        const ChannelName first = split_channel(sorted[i].name);
+        const SampleType type = sorted[i].type;
         if (!out.empty()) out += ", ";
         if (!first.layer.empty()) out += fmt::format("{}: ", first.layer);
-        for (; i < channels.size() && channels[i].type == type; ++i) {
-            const ChannelName name = split_channel(channels[i].name);
+        for (; i < sorted.size() && sorted[i].type == type; ++i) {
+            const ChannelName name = split_channel(sorted[i].name);
             if (name.layer != first.layer) break;
             out += fmt::format("{} ", name.base);
         }

@@ -15,8 +15,8 @@ namespace keyline {
 // "480 × 270 at (0, 0)"; "empty".
 std::string describe(const Rect& rect);
 
-// "R G B A half, ViewLayer.Normal: X Y Z half, ViewLayer.Depth: Z float": neighbours of one layer and type
-// together.
+// "R G B A half, ViewLayer.Normal: X Y Z half, ViewLayer.Depth: Z float": in rgba_order(), those of one layer
+// and type together.
 std::string describe(std::span<const ChannelInfo> channels);
 
 }  // namespace keyline

@@ -49,7 +49,7 @@ std::string joined(const Error& e, const char* label) {
     std::string out;
     if (!e.place.file.empty()) out += e.place.text() + ": ";
     out += label;
-    if (!e.node.empty()) out += e.node + ": ";
+    if (!e.node.empty() && e.node != e.place.file) out += e.node + ": ";
     out += e.what;
     if (!e.hint.empty()) out += "; " + e.hint;
     return out;

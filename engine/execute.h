@@ -5,23 +5,42 @@
 #include "engine/frame_run.h"
 
 #include <atomic>
-#include <functional>
+#include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace keyline {
 
-// Runs frames on a number of threads.
+// Where an executor gets its frames and what becomes of them.  Called by one thread at a time, any thread.
+class FrameSupply {
+public:
+    virtual ~FrameSupply() = default;
+
+    // The next frame, planned, with its outputs begun; null where there is none left.  Must not throw.
+    virtual std::unique_ptr<FrameRun> next() = 0;
+
+    // A frame is done, or ended by its error().  Frames end in any order.  Returns whether to go on; if not,
+    // the frames under way are given up.
+    virtual bool ended(const FrameRun& frame) = 0;
+};
+
+// Runs frames on a number of threads.  While the last jobs of one frame run, the next is read: workers that
+// the older frame has no job for serve the younger.
 class Executor {
 public:
-    explicit Executor(int threads);
+    // `memory` is the most that frames at work at once may be estimated to use; 0: no limit.
+    Executor(int threads, std::size_t memory);
 
-    // Runs the frame to its end.  Throws what ended it: the Failure of a job, or one of kind kCancelled once
-    // `cancel` is true, which is looked at between jobs.
-    void run(FrameRun& frame, const std::atomic<bool>& cancel);
+    // Runs all frames of the supply.  Throws Failure (kCancelled) once `cancel` is true, which is looked at
+    // between jobs; frames under way then leave nothing.
+    void run(FrameSupply& supply, const std::atomic<bool>& cancel);
+
+    // One frame.  Throws what ended it.
+    void run(std::unique_ptr<FrameRun> frame, const std::atomic<bool>& cancel);
 
 private:
-    class Pool;
     int threads_;
+    std::size_t memory_;
     std::vector<std::unique_ptr<TileWorker>> workers_;
 };
 

@@ -7,7 +7,8 @@
 
 namespace keyline {
 
-FrameRun::FrameRun(Plan plan) : plan_(std::move(plan)) {
+FrameRun::FrameRun(Plan plan, Recorder* recorder) : plan_(std::move(plan)) {
+    data_.recorder = recorder;
     create_sinks();
     data_.stores.resize(plan_.stores.size());
     data_.reductions.resize(plan_.frame.ops.size());
@@ -75,10 +76,17 @@ std::optional<Job> FrameRun::next() {
 }
 
 void FrameRun::run(const Job& job, TileWorker& worker) {
-    switch (job.kind) {
-        case Job::Kind::kEndSweep: end_sweep(); break;
-        case Job::Kind::kFinish: sinks_[static_cast<std::size_t>(job.which)]->finish(); break;
-        default: sweep_->run(job, worker);
+    const int frame = plan_.frame.frame, sweep = static_cast<int>(sweep_index_);
+    if (job.kind == Job::Kind::kEndSweep) {
+        const Timed time(data_.recorder, Activity::kEndSweep, "whole-frame nodes", frame, sweep, worker.id());
+        end_sweep();
+    } else if (job.kind == Job::Kind::kFinish) {
+        const auto sink = static_cast<std::size_t>(job.which);
+        const Timed time(data_.recorder, Activity::kFinish, plan_.frame.sinks[sink].title, frame, sweep,
+                         worker.id());
+        sinks_[sink]->finish();
+    } else {
+        sweep_->run(job, worker);
     }
 }
 
@@ -106,6 +114,15 @@ bool FrameRun::done() const {
 
 std::vector<Error> FrameRun::warnings() const {
     std::vector<Error> out;
+    for (const Op& op : plan_.frame.ops) {
+        if (!op.source) continue;
+        for (std::string& what : op.source->findings())
+            out.push_back({ErrorKind::kFailed,
+                           {},
+                           fmt::format("{}, frame {}", op.title, op.frame),
+                           op.source->header().file.string() + ": " + what,
+                           {}});
+    }
     for (std::size_t i = 0; i < overflowed_.size(); ++i) {
         if (overflowed_[i] == 0) continue;
         out.push_back({ErrorKind::kFailed,

@@ -21,7 +21,7 @@ namespace keyline {
 class FrameRun {
 public:
     // Creates the outputs.  Throws Failure where one can't be made.
-    explicit FrameRun(Plan plan);
+    explicit FrameRun(Plan plan, Recorder* recorder = nullptr);
     ~FrameRun();
 
     // A job that is ready; nothing where all wait for jobs under way, or the frame is done.
@@ -33,6 +33,7 @@ public:
     // threw.
     void failed(const Job& job, std::exception_ptr error);
     void cancel() { cancelled_ = true; }
+    bool cancelled() const { return cancelled_; }
 
     // No job is left and none is under way.
     bool done() const;

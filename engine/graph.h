@@ -36,7 +36,10 @@ struct GraphNode {
     Place place;   // of the id
     Value object;  // inputs and parameters as written, without `type` and `about`
 
-    std::string title() const { return "node '" + id + "' (" + type->name + ")"; }
+    // "node 'edges' (hysteresis)"; one that --output made is called as the option was typed.
+    std::string title() const {
+        return place.line == 0 ? place.file : "node '" + id + "' (" + type->name + ")";
+    }
 };
 
 // A graph's nodes with their parameters parsed for one frame, index for index.

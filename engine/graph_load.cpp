@@ -115,9 +115,11 @@ private:
         if (!is_identifier(m.key))
             error(m.key_place, fmt::format("{} is no node id", in_quotes(m.key)),
                   "an id is a letter or _, then letters, digits, _ and -");
-        if (!m.value.is(Value::Kind::kObject))
+        if (!m.value.is(Value::Kind::kObject)) {
+            unknown_ids_.insert(m.key);
             return error(m.value.place, fmt::format("node {} is {}; it must be an object", in_quotes(m.key),
                                                     m.value.shown()));
+        }
         graph_.nodes_.push_back({m.key, nullptr, m.key_place, m.value});
     }
 
@@ -191,13 +193,28 @@ private:
         else if (!type->is(Value::Kind::kString))
             error(type->place, fmt::format("'type' is {}; it must be a string", type->shown()), {}, title);
         else if (!(node.type = registry().find(type->text)))
-            error(type->place, "there is no node type " + in_quotes(type->text),
-                  did_you_mean(type->text, registry().names()), title);
+            error(type->place, "there is no node type " + in_quotes(type->text), near_type(type->text),
+                  title);
         const Value* about = node.object.find("about");
         if (about && !about->is(Value::Kind::kString))
             error(about->place, fmt::format("'about' is {}; it must be a string", about->shown()), {}, title);
         std::erase_if(node.object.members,
                       [](const Member& m) { return m.key == "type" || m.key == "about"; });
+    }
+
+    static std::string near_type(const std::string& type) {
+        std::string hint = did_you_mean(type, registry().names());
+        return hint.empty() ? "'keyline nodes' lists those there are" : hint;
+    }
+
+    std::string near_node(const std::string& id) const {
+        constexpr std::size_t kMostListed = 12;
+        std::string hint = did_you_mean(id, ids());
+        if (!hint.empty()) return hint;
+        std::vector<std::string> readable;
+        for (const GraphNode& n : graph_.nodes_)
+            if (n.type && n.type->kind != NodeKind::kSink) readable.push_back(n.id);
+        return readable.empty() || readable.size() > kMostListed ? "" : "known are " + listed(readable);
     }
 
     std::vector<std::string> ids() const {
@@ -217,7 +234,10 @@ private:
             const GraphNode& node = graph_.nodes_[i];
             const Value object = graph_.variables_->substitute(node.object, frame, ignored);
             for (const FieldInfo& f : node.type->fields)
-                if (const Value* v = object.find(f.name)) check_links(i, f.type, *v);
+                if (const Value* v = object.find(f.name))
+                    check_links(i, f.type, *v);
+                else if (f.required && f.type.kind == TypeInfo::Kind::kInput)
+                    links_known_ = false;
         }
         find_cycles();
     }
@@ -251,8 +271,7 @@ private:
         if (target < 0) {
             links_known_ = false;
             if (!told && !unknown_ids_.contains(in.node))
-                error(in.place, "there is no node " + in_quotes(in.node), did_you_mean(in.node, ids()),
-                      from.title());
+                error(in.place, "there is no node " + in_quotes(in.node), near_node(in.node), from.title());
         } else if (const GraphNode& to = graph_.nodes_[static_cast<std::size_t>(target)];
                    to.type->kind == NodeKind::kSink) {
             error(in.place, fmt::format("{} is a {}, which has no result", in_quotes(in.node), to.type->name),
@@ -315,6 +334,7 @@ private:
             any = true;
             if (is_chosen(i, first_output)) graph_.sinks_.push_back(static_cast<int>(i));
         }
+        if (!any) links_known_ = false;
         if (!any && unknown_ids_.empty())
             error(root_place_, "the graph writes nothing", "add a node of type " + sink_types());
         check_only();
@@ -364,7 +384,7 @@ private:
     Graph& graph_;
     const LoadOptions& options_;
     Diagnostics& diagnostics_;
-    bool links_known_ = true;            // else some node may be in use that does not look so
+    bool links_known_ = true;            // else a node may be in use that does not look so
     std::set<std::string> unknown_ids_;  // nodes whose type is wrong: told once, not again by their users
 };
 

@@ -91,8 +91,15 @@ const Port& leading_port(const std::vector<Port>& ports) {
 
 std::vector<Link> make_links(const std::vector<Port>& ports) {
     std::vector<Link> links;
-    for (const Port& port : ports)
-        links.push_back({port.stream.window, take_channels(port.stream, port.takes)});
+    for (const Port& port : ports) {
+        try {
+            links.push_back({port.stream.window, take_channels(port.stream, port.takes)});
+        } catch (const Failure& f) {
+            Error e = f.error();
+            e.place = port.place;
+            throw Failure(std::move(e));
+        }
+    }
     return links;
 }
 

@@ -147,6 +147,7 @@ struct SinkRequest {
     Stream stream;  // channels in the order to be written
     SinkSpec spec;  // spec.channels: one a channel of the stream
     std::filesystem::path file;
+    std::function<void(const SinkSpec&)> check;  // throws what is wrong with the spec; may be empty
     std::function<std::unique_ptr<ImageSink>(const SinkSpec&)> create;
 };
 

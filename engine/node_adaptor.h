@@ -157,6 +157,7 @@ struct Port {
     Takes takes;
     bool leading = false, connected = false;
     Stream stream;
+    Place place = {};  // of the input in the graph
 };
 
 // Channels that a node makes, and where the others of the result come from.
@@ -221,7 +222,7 @@ template <class Params>
 std::vector<Port> connect(Builder& builder, const Params& params, int slots) {
     std::vector<Port> ports(static_cast<std::size_t>(slots));
     for_each<Input>(params, [&](const Input& in, const char*, const Constraint& c) {
-        ports[static_cast<std::size_t>(in.slot)] = {c.takes, c.leading, true, builder.input(in)};
+        ports[static_cast<std::size_t>(in.slot)] = {c.takes, c.leading, true, builder.input(in), in.place};
     });
     return ports;
 }

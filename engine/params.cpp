@@ -13,8 +13,9 @@ namespace keyline {
 namespace detail {
 
 void wrong_kind(const Value& value, std::string_view name, const TypeInfo& type, ParamReader& reader) {
-    reader.error(value.place, fmt::format("'{}' is {}, {}; it must be {}", name, value.shown(),
-                                          kind_name(value.kind), type.text()));
+    const std::string kind = value.is(Value::Kind::kNull) ? "" : fmt::format(", {}", kind_name(value.kind));
+    reader.error(value.place,
+                 fmt::format("'{}' is {}{}; it must be {}", name, value.shown(), kind, type.text()));
 }
 
 void check_range(const Value& value, std::string_view name, double number, const Constraint& c,

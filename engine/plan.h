@@ -60,7 +60,7 @@ struct Operand {
 struct Root {
     enum class Kind { kMap, kSink, kKeep };
     Kind kind = Kind::kSink;
-    int op = -1;     // kMap: the whole-frame operation
+    int op = -1;     // kMap: the whole-frame operation; kKeep: whose result it is
     int sink = -1;   // kSink
     int store = -1;  // kKeep
     Rect region;     // what of it there is to compute

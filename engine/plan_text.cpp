@@ -40,7 +40,11 @@ private:
 
     std::size_t index(const Op& op) const { return static_cast<std::size_t>(&op - plan_.frame.ops.data()); }
     const Op& op(int i) const { return plan_.frame.ops[static_cast<std::size_t>(i)]; }
-    std::string file_of(int source_op) const { return op(source_op).source->header().file.string(); }
+    std::string file_of(int source_op) const {
+        return op(source_op).source->header().file.lexically_normal().string();
+    }
+
+    static std::string file_of(const Sink& sink) { return sink.request.file.lexically_normal().string(); }
 
     ChannelInfo source_channel(ValueRef v) const {
         const Op& source = op(v.op);
@@ -64,7 +68,7 @@ private:
         for (int o = 0; o < static_cast<int>(source.outputs.size()); ++o)
             if (!plan_.demand.of({i, o}).empty()) read.push_back({i, o});
         const ImageHeader& header = source.source->header();
-        line(0, fmt::format("\ninput {}, {}", header.file.string(), source.title));
+        line(0, fmt::format("\ninput {}, {}", file_of(i), source.title));
         if (source.frame != plan_.frame.frame) entry("frame", std::to_string(source.frame));
         entry("display", describe(header.display_window));
         entry("data", describe(header.data_window));
@@ -74,7 +78,7 @@ private:
     }
 
     void output(const Sink& sink) {
-        line(0, fmt::format("\noutput {}, {}", sink.request.file.string(), sink.title));
+        line(0, fmt::format("\noutput {}, {}", file_of(sink), sink.title));
         entry("display", describe(sink.request.spec.display_window));
         entry("data", describe(sink.request.spec.data_window));
         entry("writes", describe(sink.request.spec.channels));
@@ -140,8 +144,7 @@ private:
         }
         const Sink& sink = plan_.frame.sinks[static_cast<std::size_t>(root.sink)];
         const auto untouched = std::ranges::count(root.untouched, true);
-        std::string text =
-            fmt::format("{}, {}", sink.request.file.string(), counted(root.operands.size(), "channel"));
+        std::string text = fmt::format("{}, {}", file_of(sink), counted(root.operands.size(), "channel"));
         if (untouched > 0) text += fmt::format(", {} as they are in the input", untouched);
         entry("write", text);
     }

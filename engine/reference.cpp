@@ -67,8 +67,11 @@ std::string outputs_text(const NodeType& type) {
 }
 
 // Breaks text at blanks so that lines stay below `width` columns, each indented.
-std::string wrapped(std::string_view text, std::size_t indent, std::size_t width = 78) {
-    std::string out, line(indent, ' ');
+// The first line may start further left.
+std::string wrapped(std::string_view text, std::size_t indent, std::string label = "",
+                    std::size_t width = 78) {
+    std::string out, line = std::move(label);
+    line.resize(std::max(line.size(), indent), ' ');
     while (!text.empty()) {
         const std::string_view word = text.substr(0, text.find(' '));
         if (line.size() > indent && line.size() + 1 + word.size() > width) {
@@ -113,12 +116,10 @@ private:
 
     void details(const TypeInfo& type, std::size_t indent) {
         for (const TypeInfo::WordInfo& w : type.words)
-            out_ += wrapped(fmt::format("{:<12}{}", json_of_word(w.word), w.help), indent);
+            out_ += wrapped(w.help, indent + 14, fmt::format("{:{}}\"{}\" ", "", indent, w.word));
         for (const FieldInfo& f : type.fields) field(f, indent);
         for (const TypeInfo& item : type.items) details(item, indent);
     }
-
-    static std::string json_of_word(const std::string& word) { return fmt::format("\"{}\"", word); }
 
     std::string out_;
 };

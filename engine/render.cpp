@@ -3,10 +3,12 @@
 #include "engine/render.h"
 
 #include "engine/execute.h"
+#include "engine/output_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
+#include <memory>
+#include <new>
 
 namespace keyline {
 
@@ -16,61 +18,61 @@ ResolveOptions resolve_options(const Graph& graph, const RenderOptions& options,
     return {options.ocio.empty() ? graph.ocio() : options.ocio, every_node};
 }
 
-std::string identity_of(const std::filesystem::path& file) {
-    std::error_code error;
-    const auto canonical = std::filesystem::weakly_canonical(file, error);
-    return error ? file.string() : canonical.string();
-}
-
-// Two outputs to one file, or one onto an input.
-void check_outputs(const ResolvedFrame& frame, const std::vector<std::filesystem::path>& inputs,
-                   Diagnostics& diagnostics) {
-    std::map<std::string, std::string> taken;  // file → who uses it
-    for (const auto& file : inputs) taken.emplace(identity_of(file), "read by this run");
-    for (const Sink& sink : frame.sinks) {
-        const auto [it, is_new] =
-            taken.emplace(identity_of(sink.request.file), "written by " + sink.title + " too");
-        if (!is_new)
-            diagnostics.error({ErrorKind::kGraph, sink.place, sink.title,
-                               fmt::format("{} is {}", in_quotes(sink.request.file.string()), it->second),
-                               "write to another file"});
-    }
-}
-
 std::optional<ResolvedFrame> resolve_checked(const Graph& graph, int frame, const RenderOptions& options,
                                              bool every_node, Diagnostics& diagnostics) {
     auto resolved = resolve(graph, frame, resolve_options(graph, options, every_node), diagnostics);
     if (!resolved) return std::nullopt;
-    std::vector<std::filesystem::path> inputs;
-    for (const Op& op : resolved->ops)
-        if (op.source) inputs.push_back(op.source->header().file);
-    check_outputs(*resolved, inputs, diagnostics);
+    check_outputs(*resolved, diagnostics);
     if (!diagnostics.ok()) return std::nullopt;
     return resolved;
 }
 
-// One render: the frames one after the other.
-class Render {
-public:
-    Render(const Graph& graph, const RenderOptions& options, RenderObserver& observer,
-           const std::atomic<bool>& cancel)
-        : graph_(graph),
-          options_(options),
-          observer_(observer),
-          cancel_(cancel),
-          executor_(options.threads) {}
+void check_format(const Sink& sink, Diagnostics& diagnostics) {
+    try {
+        if (sink.request.check) sink.request.check(sink.request.spec);
+    } catch (const Failure& f) {
+        Error e = f.error();
+        e.place = sink.place;
+        e.node = sink.title;
+        diagnostics.error(std::move(e));
+    }
+}
 
-    RenderResult run() {
-        if (!first_frame_is_sound()) return result_;
-        for (const int frame : options_.frames) {
-            const FrameOutcome outcome = run_frame(frame);
-            observer_.frame_ended(frame, outcome);
-            if (outcome == FrameOutcome::kDone) ++result_.done;
-            if (outcome == FrameOutcome::kSkipped) ++result_.skipped;
-            if (outcome == FrameOutcome::kFailed) ++result_.failed;
-            if (outcome == FrameOutcome::kFailed && !options_.keep_going) break;
-        }
+bool any_of_graph(const std::vector<Error>& errors) {
+    return std::ranges::any_of(errors, [](const Error& e) { return e.kind == ErrorKind::kGraph; });
+}
+
+// One render: hands the executor frame after frame and keeps count of what became of them.
+class Render final : public FrameSupply {
+public:
+    Render(const Graph& graph, const RenderOptions& options, RenderObserver& observer)
+        : graph_(graph), options_(options), observer_(observer) {}
+
+    RenderResult run(const std::atomic<bool>& cancel) {
+        if (first_frame_is_sound()) Executor(options_.threads, options_.memory).run(*this, cancel);
         return result_;
+    }
+
+    std::unique_ptr<FrameRun> next() override {
+        while (next_ < options_.frames.size()) {
+            const int frame = options_.frames[next_++];
+            if (auto run = begin(frame)) return run;
+        }
+        return nullptr;
+    }
+
+    bool ended(const FrameRun& run) override {
+        for (const Error& w : run.warnings()) observer_.warning(w);
+        const int frame = run.plan().frame.frame;
+        if (!run.error()) return count(frame, FrameOutcome::kDone);
+        try {
+            std::rethrow_exception(run.error());
+        } catch (const Failure& f) {
+            return frame_failed(frame, {f.error()});
+        } catch (const std::exception& e) {
+            return frame_failed(frame,
+                                {{ErrorKind::kInternal, {}, fmt::format("frame {}", frame), e.what(), {}}});
+        }
     }
 
 private:
@@ -78,44 +80,58 @@ private:
     bool first_frame_is_sound() {
         Diagnostics diagnostics;
         check(graph_, options_.frames.front(), options_, diagnostics);
+        if (diagnostics.ok())
+            check_outputs(graph_, options_.frames, resolve_options(graph_, options_, false), diagnostics);
         for (const Error& w : diagnostics.warnings()) observer_.warning(w);
-        const bool wrong = std::ranges::any_of(diagnostics.errors(),
-                                               [](const Error& e) { return e.kind == ErrorKind::kGraph; });
-        if (!wrong) return true;
+        if (!any_of_graph(diagnostics.errors())) return true;
         for (const Error& e : diagnostics.errors()) observer_.error(e);
         result_.status = exit_status(ErrorKind::kGraph);
         result_.failed = 1;
         return false;
     }
 
-    FrameOutcome run_frame(int frame) {
-        if (cancel_) fail(ErrorKind::kCancelled, "cancelled");
+    // A frame's plan with its outputs begun; null where it is skipped or failed, which is told.
+    std::unique_ptr<FrameRun> begin(int frame) {
         Diagnostics diagnostics;
-        auto resolved = resolve_checked(graph_, frame, options_, false, diagnostics);
-        if (frame != options_.frames.front())
-            for (const Error& w : diagnostics.warnings()) observer_.warning(w);
-        if (!resolved) return failed(diagnostics.errors());
-        if (options_.skip_existing && skip_finished(*resolved)) return FrameOutcome::kSkipped;
-        for (const Sink& sink : resolved->sinks) remove_leftovers(sink.request.file);
         try {
-            FrameRun run(make_plan(std::move(*resolved), {options_.threads, options_.tile, options_.memory}));
-            observer_.frame_started(frame, run.plan());
-            executor_.run(run, cancel_);
-            for (const Error& w : run.warnings()) observer_.warning(w);
+            auto resolved = resolve_checked(graph_, frame, options_, false, diagnostics);
+            if (frame != options_.frames.front())
+                for (const Error& w : diagnostics.warnings()) observer_.warning(w);
+            if (!resolved) return frame_failed(frame, diagnostics.errors()), nullptr;
+            if (options_.skip_existing && skip_finished(*resolved))
+                return count(frame, FrameOutcome::kSkipped), nullptr;
+            for (const Sink& sink : resolved->sinks) remove_leftovers(sink.request.file);
+            auto run = std::make_unique<FrameRun>(
+                make_plan(std::move(*resolved), {options_.threads, options_.tile, options_.memory}),
+                options_.recorder);
+            observer_.frame_started(frame, run->plan());
+            return run;
         } catch (const Failure& f) {
-            if (f.error().kind == ErrorKind::kCancelled) throw;
-            return failed({f.error()});
+            frame_failed(frame, {f.error()});
+        } catch (const std::exception& e) {
+            frame_failed(frame, {{ErrorKind::kInternal, {}, fmt::format("frame {}", frame), e.what(), {}}});
         }
-        return FrameOutcome::kDone;
+        return nullptr;
     }
 
-    FrameOutcome failed(const std::vector<Error>& errors) {
+    // All three return whether to go on.
+    bool frame_failed(int frame, const std::vector<Error>& errors) {
         for (const Error& e : errors) observer_.error(e);
-        const bool graph =
-            std::ranges::any_of(errors, [](const Error& e) { return e.kind == ErrorKind::kGraph; });
         if (result_.status == 0)
-            result_.status = exit_status(graph ? ErrorKind::kGraph : errors.front().kind);
-        return FrameOutcome::kFailed;
+            result_.status = exit_status(any_of_graph(errors) ? ErrorKind::kGraph : errors.front().kind);
+        return count(frame, FrameOutcome::kFailed);
+    }
+
+    bool count(int frame, FrameOutcome outcome) {
+        observer_.frame_ended(frame, outcome);
+        switch (outcome) {
+            case FrameOutcome::kDone: ++result_.done; break;
+            case FrameOutcome::kSkipped: ++result_.skipped; break;
+            case FrameOutcome::kFailed: ++result_.failed; break;
+        }
+        const bool go_on = outcome != FrameOutcome::kFailed || options_.keep_going;
+        if (!go_on) next_ = options_.frames.size();
+        return go_on;
     }
 
     // Drops the outputs that are finished; true where none is left.
@@ -127,15 +143,15 @@ private:
     const Graph& graph_;
     const RenderOptions& options_;
     RenderObserver& observer_;
-    const std::atomic<bool>& cancel_;
-    Executor executor_;
+    std::size_t next_ = 0;
     RenderResult result_;
 };
 
 }  // namespace
 
 void check(const Graph& graph, int frame, const RenderOptions& options, Diagnostics& diagnostics) {
-    resolve_checked(graph, frame, options, true, diagnostics);
+    if (const auto resolved = resolve_checked(graph, frame, options, true, diagnostics))
+        for (const Sink& sink : resolved->sinks) check_format(sink, diagnostics);
     diagnostics.sort_by_place();
 }
 
@@ -153,7 +169,7 @@ std::optional<Plan> plan_frame(const Graph& graph, int frame, const RenderOption
 
 RenderResult render(const Graph& graph, const RenderOptions& options, RenderObserver& observer,
                     const std::atomic<bool>& cancel) {
-    return Render(graph, options, observer, cancel).run();
+    return Render(graph, options, observer).run(cancel);
 }
 
 }  // namespace keyline

@@ -4,6 +4,7 @@
 
 #include "engine/graph.h"
 #include "engine/plan.h"
+#include "engine/stats.h"
 
 #include <atomic>
 #include <cstddef>
@@ -15,16 +16,18 @@ namespace keyline {
 struct RenderOptions {
     std::vector<int> frames;
     int threads = 1;
-    int tile = 0;                // pixels; 0: the planner's choice
-    std::size_t memory = 0;      // bytes for the whole process; 0: no limit
-    std::filesystem::path ocio;  // the config; empty: the graph's, else the built-in one
-    bool skip_existing = false;  // leave finished outputs alone
-    bool keep_going = false;     // after a frame that failed
+    int tile = 0;                  // pixels; 0: the planner's choice
+    std::size_t memory = 0;        // bytes for the whole process; 0: no limit
+    std::filesystem::path ocio;    // the config; empty: the graph's, else the built-in one
+    bool skip_existing = false;    // leave finished outputs alone
+    bool keep_going = false;       // after a frame that failed
+    Recorder* recorder = nullptr;  // told where the time goes; null: nothing is recorded
 };
 
 enum class FrameOutcome { kDone, kSkipped, kFailed };
 
-// Hears of a render as it goes.  Called from the thread that called render().
+// Hears of a render as it goes.  Called by one thread at a time, any thread.  Two frames may be at work at
+// once, and a younger one may end first.
 class RenderObserver {
 public:
     virtual ~RenderObserver() = default;

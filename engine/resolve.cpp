@@ -160,6 +160,14 @@ public:
     std::string title() const { return node_.title(); }
     const Place& place() const { return last_place_ ? *last_place_ : node_.place; }
 
+    // Where the node's file stands, for what is wrong with that.
+    const Place& file_place() const {
+        for (const FieldInfo& f : node_.type->fields)
+            if (const Value* v = node_.object.find(f.name); v && f.type.kind == TypeInfo::Kind::kFile)
+                return v->place;
+        return place();
+    }
+
 private:
     Stream select(const Stream& whole, const Input& in) {
         Stream out = whole;
@@ -194,7 +202,8 @@ std::optional<Stream> Resolver::resolve_node(int node, int frame) {
         return parsed->resolve(builder);
     } catch (const Failure& f) {
         Error e = f.error();
-        if (e.place.file.empty()) e.place = builder.place();
+        if (e.place.file.empty())
+            e.place = e.kind == ErrorKind::kInput ? builder.file_place() : builder.place();
         if (e.node.empty()) e.node = builder.title();
         diagnostics_.error(std::move(e));
     } catch (const AlreadyReported&) {

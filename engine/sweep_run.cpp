@@ -175,17 +175,20 @@ std::optional<Job> SweepRun::next_tile() {
 
 void SweepRun::run(const Job& job, TileWorker& worker) {
     switch (job.kind) {
-        case Job::Kind::kDecode: run_decode(job); break;
+        case Job::Kind::kDecode: run_decode(job, worker.id()); break;
         case Job::Kind::kTile: run_tile(job, worker); break;
-        case Job::Kind::kEncode: run_encode(job); break;
+        case Job::Kind::kEncode: run_encode(job, worker.id()); break;
         default: break;
     }
 }
 
-void SweepRun::run_decode(const Job& job) const {
+void SweepRun::run_decode(const Job& job, int worker) const {
     const Store& store = plan_.stores[index(job.which)];
     const Op& op = plan_.frame.ops[index(store.source_op)];
     const Bands& bands = *data_.stores[index(job.which)];
+    Timed time(data_.recorder, Activity::kRead, op.title, plan_.frame.frame, index_, worker);
+    const auto pixels = bands.rect(job.row).area() * static_cast<int64_t>(store.values.size());
+    time.pixels(pixels, pixels);
     std::vector<Plane> planes(op.source->header().groups[store.group].channels.size());
     for (std::size_t i = 0; i < store.values.size(); ++i)
         planes[op.source_channel[index(store.values[i].output)]] = bands.plane(job.row, i);
@@ -218,10 +221,14 @@ void SweepRun::fold(Fold& f, int tile, std::unique_ptr<Memory> partial) {
         if (it->second) reduction.fold(*data_.reductions[index(op)], *it->second);
 }
 
-void SweepRun::run_encode(const Job& job) {
+void SweepRun::run_encode(const Job& job, int worker) {
     Output& out = outputs_[index(job.which)];
     Bands& bands = *data_.sinks[index(out.sink)];
     const int band = bands.first_band() + job.row;
+    Timed time(data_.recorder, Activity::kEncode, plan_.frame.sinks[index(out.sink)].title, plan_.frame.frame,
+               index_, worker);
+    const auto pixels = bands.rect(band).area() * static_cast<int64_t>(bands.types().size());
+    time.pixels(pixels, pixels);
     std::vector<Plane> planes;
     if (!bands.allocated(band)) bands.allocate(band, true);
     for (std::size_t i = 0; i < bands.types().size(); ++i) planes.push_back(bands.plane(band, i));

@@ -84,9 +84,9 @@ private:
     void chunk_row_done(Output& output, int row);
 
     std::optional<Job> next_tile();
-    void run_decode(const Job& job) const;
+    void run_decode(const Job& job, int worker) const;
     void run_tile(const Job& job, TileWorker& worker);
-    void run_encode(const Job& job);
+    void run_encode(const Job& job, int worker);
     void commit_ready(Output& output);
     void fold(Fold& f, int tile, std::unique_ptr<Memory> partial);
 

@@ -50,6 +50,10 @@ TileResult TileWorker::compute(const Plan& plan, const Sweep& sweep, FrameData& 
     for (std::size_t i = 0; i < sweep.steps.size(); ++i) {
         const Op& op = plan.frame.ops[static_cast<std::size_t>(sweep.steps[i].op)];
         try {
+            const Activity activity =
+                sweep.steps[i].kind == Step::Kind::kLoad ? Activity::kLoad : Activity::kCompute;
+            Timed time = timed(activity, op.title);
+            time.pixels(regions_[i].area(), intersect(regions_[i], tile).area());
             run_step(i);
         } catch (...) {
             rethrow(op, tile);
@@ -60,6 +64,11 @@ TileResult TileWorker::compute(const Plan& plan, const Sweep& sweep, FrameData& 
     result.overflowed.resize(sweep.roots.size());
     for (std::size_t i = 0; i < sweep.roots.size(); ++i) run_root(i, result);
     return result;
+}
+
+Timed TileWorker::timed(Activity activity, const std::string& title) const {
+    const int sweep = static_cast<int>(sweep_ - plan_->sweeps.data());
+    return {data_->recorder, activity, title, plan_->frame.frame, sweep, id_};
 }
 
 MutView TileWorker::buffer(int slot, const Rect& rect, const Rect& window) {
@@ -135,6 +144,10 @@ void TileWorker::gather(const Operand& operand, const Link& link, ValueRef value
 
 void TileWorker::run_root(std::size_t i, TileResult& result) {
     const Root& root = sweep_->roots[i];
+    const std::string& title = root.kind == Root::Kind::kSink
+                                   ? plan_->frame.sinks[static_cast<std::size_t>(root.sink)].title
+                                   : plan_->frame.ops[static_cast<std::size_t>(root.op)].title;
+    const Timed time = timed(root.kind == Root::Kind::kMap ? Activity::kMap : Activity::kKeep, title);
     switch (root.kind) {
         case Root::Kind::kMap: result.partials[i] = run_map(root); break;
         case Root::Kind::kSink: result.overflowed[i] = run_sink(root); break;

@@ -5,6 +5,7 @@
 #include "engine/aligned.h"
 #include "engine/bands.h"
 #include "engine/plan.h"
+#include "engine/stats.h"
 
 #include <memory>
 #include <vector>
@@ -16,6 +17,7 @@ struct FrameData {
     std::vector<std::unique_ptr<Bands>> stores;       // by store of the plan; null where not alive
     std::vector<std::unique_ptr<Bands>> sinks;        // by sink: rows waiting to be encoded
     std::vector<std::unique_ptr<Memory>> reductions;  // by operation: the folded state
+    Recorder* recorder = nullptr;                     // null: nothing is recorded
 };
 
 // What a tile leaves beside the samples in FrameData.
@@ -27,6 +29,9 @@ struct TileResult {
 // One worker's memory.  A tile is computed in it from stores to roots, one operation after the other.
 class TileWorker {
 public:
+    explicit TileWorker(int id) : id_(id) {}
+    int id() const { return id_; }
+
     TileResult compute(const Plan& plan, const Sweep& sweep, FrameData& data, const Rect& tile);
 
 private:
@@ -42,6 +47,10 @@ private:
     void run_root(std::size_t i, TileResult& result);
     std::unique_ptr<Memory> run_map(const Root& root);
     std::size_t run_sink(const Root& root);
+
+    Timed timed(Activity activity, const std::string& title) const;
+
+    const int id_;
 
     // The tile in work.
     const Plan* plan_ = nullptr;

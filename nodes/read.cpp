@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/color_operation.h"
+#include "engine/frames.h"
 #include "engine/io/mended_source.h"
 #include "engine/node_adaptor.h"
 
@@ -88,14 +89,21 @@ private:
     std::shared_ptr<const ImageSource> open(Context& context) const {
         const int frame = wanted_frame(context.frame());
         const std::filesystem::path path = params.file.at(frame);
-        if (params.missing == Missing::kError || std::filesystem::exists(path))
+        std::error_code unknown;  // where it can't be looked at, opening it says why
+        if (std::filesystem::exists(path, unknown) || unknown || !params.file.has_frame())
             return open_image(path, options());
-        const std::optional<int> other = stand_in(frame);
-        if (!other) return open_image(path, options());
+        const std::optional<int> other = params.missing == Missing::kError ? std::nullopt : stand_in(frame);
+        if (!other) refuse_missing(path);
         auto source = std::shared_ptr<const ImageSource>(open_image(params.file.at(*other), options()));
         context.warn(fmt::format("frame {} is missing; {} {} stands in", frame,
                                  params.missing == Missing::kBlack ? "black like frame" : "frame", *other));
         return params.missing == Missing::kBlack ? black_like(source) : source;
+    }
+
+    [[noreturn]] void refuse_missing(const std::filesystem::path& path) const {
+        const std::vector<int> frames = params.file.frames_on_disk();
+        fail(ErrorKind::kInput, fmt::format("{}: no such file", path.string()),
+             frames.empty() ? "no frame of it is on disk" : "on disk are frames " + format_frames(frames));
     }
 
     OpenOptions options() const {

@@ -59,6 +59,7 @@ struct Write {
                                             builder.colors().convert("scene_linear", params.colorspace));
         request.file = params.file.at(builder.frame());
         request.spec = spec(builder, request.stream);
+        request.check = [file = request.file](const SinkSpec& s) { check_image(file, s); };
         request.create = [file = request.file](const SinkSpec& s) { return create_image(file, s); };
         builder.add_sink(std::move(request));
     }
@@ -94,12 +95,19 @@ private:
             if (kept.size() == before && std::ranges::find(names, wanted) == names.end())
                 builder.bad_parameter("channels",
                                       fmt::format("there is no channel or layer {}", in_quotes(wanted)),
-                                      did_you_mean(wanted, names));
+                                      there_are(wanted, names));
         }
         Stream out = all;
         out.channels.clear();
         for (const std::size_t i : kept) out.channels.push_back(all.channels[i]);
         return out;
+    }
+
+    static std::string there_are(const std::string& wanted, const std::vector<std::string>& names) {
+        constexpr std::size_t kMostListed = 12;
+        std::string hint = did_you_mean(wanted, names);
+        if (!hint.empty() || names.empty() || names.size() > kMostListed) return hint;
+        return "there are the channels " + listed(names);
     }
 
     SinkSpec spec(const Builder& builder, const Stream& stream) const {

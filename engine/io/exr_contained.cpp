@@ -19,9 +19,6 @@ constexpr int kChromaMargin = 16;
 // Rows to hand to the helper at once, where chunks are small.
 constexpr int kLeastRows = 64;
 
-// Its code, OpenEXR's library and their working memory, on top of what a file needs.
-constexpr std::size_t kHelperProcess = std::size_t{24} << 20;
-
 int leader_bytes(const Layout& layout) { return layout.one_tile ? 20 : 8; }
 
 }  // namespace

@@ -12,6 +12,9 @@
 
 namespace keyline::exr {
 
+// What a helper process takes beside what a file needs: its code, OpenEXR's library, their tables.
+inline constexpr std::size_t kHelperProcess = std::size_t{24} << 20;
+
 // Whether OpenEXRCore (3.1.5) can't do it and a helper process must: DWA, B44 with float channels.
 bool needs_helper(Compression compression, std::span<const StoredChannel> channels);
 

@@ -24,7 +24,8 @@ inline constexpr std::array<std::byte, 4> kMagic = {std::byte{0x76}, std::byte{0
                                                     std::byte{0x01}};
 
 // Bits of the version field, above the version number.
-inline constexpr uint32_t kVersion = 2, kTiledFlag = 0x200, kLongNamesFlag = 0x400, kMultipartFlag = 0x1000;
+inline constexpr uint32_t kVersion = 2, kTiledFlag = 0x200, kLongNamesFlag = 0x400, kDeepFlag = 0x800,
+                          kMultipartFlag = 0x1000;
 inline constexpr std::size_t kLongestShortName = 31, kLongestName = 255;
 
 enum class Compression : uint8_t { kNone, kRle, kZips, kZip, kPiz, kPxr24, kB44, kB44a, kDwaa, kDwab };

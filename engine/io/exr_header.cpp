@@ -25,6 +25,16 @@ Stream* stream_of(exr_const_context_t context) {
     return exr_get_user_data(context, &data) == EXR_ERR_SUCCESS ? static_cast<Stream*>(data) : nullptr;
 }
 
+// In a file that has deep parts beside flat ones, Core (3.1.5) wants of the flat ones what only deep ones
+// have. It knows by their type which are which; the flag in the file's version says nothing more.
+void hide_deep_flag(std::span<std::byte> start_of_file) {
+    if (start_of_file.size() < 8) return;
+    const auto version = get<uint32_t>(start_of_file, 4);
+    if ((version & kMultipartFlag) == 0) return;
+    const uint32_t shown = version & ~kDeepFlag;
+    std::memcpy(start_of_file.data() + 4, &shown, sizeof shown);
+}
+
 [[noreturn]] void damaged(const InputFile& file, const std::string& why) {
     fail(ErrorKind::kInput, fmt::format("{}: damaged header: {}", file.name(), why));
 }
@@ -151,7 +161,9 @@ ReadContext::ReadContext(const InputFile& file) : stream_(new Stream{&file, {}})
                       exr_stream_error_func_ptr_t) -> int64_t {
         try {
             const std::span<std::byte> bytes(static_cast<std::byte*>(buffer), size);
-            return static_cast<int64_t>(static_cast<Stream*>(stream)->file->read_some(offset, bytes));
+            const std::size_t n = static_cast<Stream*>(stream)->file->read_some(offset, bytes);
+            if (offset == 0) hide_deep_flag(bytes.first(n));
+            return static_cast<int64_t>(n);
         } catch (const std::exception&) {  // Core is C: the fault becomes its own "can't read"
             return -1;
         }
@@ -181,6 +193,7 @@ std::vector<Part> read_parts(const InputFile& file, const ReadContext& context,
         static_cast<std::size_t>(count) != attributes.size())
         damaged(file, fmt::format("{} parts were expected, {} are there", count, attributes.size()));
     std::vector<Part> parts;
+    parts.reserve(attributes.size());
     for (int i = 0; i < count; ++i)
         parts.push_back(
             PartReader(file, context.get(), i).read(std::move(attributes[static_cast<std::size_t>(i)])));

@@ -105,11 +105,10 @@ struct Samples {
         for (const Channel& c : channels) {
             const auto xs = c.info.xSampling, ys = c.info.ySampling;
             const std::size_t row = pixel_bytes * width() * static_cast<std::size_t>(ys);
-            const auto origin = reinterpret_cast<intptr_t>(at(samples, c, window.y0)) -
-                                window.x0 / xs * static_cast<intptr_t>(c.size) -
-                                window.y0 / ys * static_cast<intptr_t>(row);
-            buffer.insert(c.name,
-                          Imf::Slice(c.info.type, reinterpret_cast<char*>(origin), c.size, row, xs, ys));
+            // The library wants the address that the pixel (0, 0) would have.
+            char* origin = at(samples, c, window.y0) - window.x0 / xs * static_cast<std::ptrdiff_t>(c.size) -
+                           window.y0 / ys * static_cast<std::ptrdiff_t>(row);
+            buffer.insert(c.name, Imf::Slice(c.info.type, origin, c.size, row, xs, ys));
         }
         return buffer;
     }
@@ -133,9 +132,10 @@ struct Samples {
 
 // The rows that are wanted of samples that lie row by row.
 std::vector<char> wanted_rows(std::vector<char> samples, const Rect& window, const HelperRequest& request) {
-    const std::size_t row = samples.size() / static_cast<std::size_t>(window.height());
-    if (request.first_row < window.y0 || request.rows < 0 || request.rows > window.y1 - request.first_row)
+    if (window.empty() || request.first_row < window.y0 || request.rows < 0 ||
+        request.rows > window.y1 - request.first_row)
         throw std::runtime_error("it has other rows than it should");
+    const std::size_t row = samples.size() / static_cast<std::size_t>(window.height());
     const auto begin = samples.begin() + static_cast<std::ptrdiff_t>(
                                              static_cast<std::size_t>(request.first_row - window.y0) * row);
     return {begin, begin + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(request.rows) * row)};
@@ -222,7 +222,7 @@ void limit_resources(uint64_t bytes) {
     setrlimit(RLIMIT_CPU, &limit);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     getrlimit(RLIMIT_AS, &limit);
-    limit.rlim_cur = (uint64_t{256} << 20) + 16 * bytes;
+    limit.rlim_cur = (uint64_t{256} << 20) + 10 * bytes;
     setrlimit(RLIMIT_AS, &limit);
 #endif
 }

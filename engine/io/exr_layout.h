@@ -21,7 +21,10 @@ struct Layout {
     bool one_tile = false;  // a tiled part whose only tile is the data window; else scanlines
 
     int rows_per_chunk() const { return one_tile ? data_window.height() : info(compression).rows; }
-    int chunks() const { return (data_window.height() + rows_per_chunk() - 1) / rows_per_chunk(); }
+    int chunks() const {
+        const int rows = info(compression).rows;
+        return one_tile ? 1 : (data_window.height() + rows - 1) / rows;
+    }
 
     // Everything before the table of chunk offsets.  Attributes of the metadata that describe storage are
     // left out; pixelAspectRatio, screenWindowCenter and screenWindowWidth get their defaults where there are

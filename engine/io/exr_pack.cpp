@@ -3,6 +3,7 @@
 #include "engine/io/exr_pack.h"
 
 #include "engine/error.h"
+#include "engine/io/exr_contained.h"
 #include "engine/simd/predictor.h"
 
 #include <cstring>
@@ -47,7 +48,8 @@ exr_attr_box2i_t to_box(const Rect& r) {
 
 }  // namespace
 
-PackContext::PackContext(const Layout& layout) {
+// Delegating: what has been made is undone where a later step fails.
+PackContext::PackContext(const Layout& layout) : PackContext() {
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
     init.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
     init.write_fn = [](exr_const_context_t, void*, const void*, uint64_t size, uint64_t,
@@ -72,7 +74,7 @@ void Packer::FreeCompressor::operator()(libdeflate_compressor* compressor) const
     libdeflate_free_compressor(compressor);
 }
 
-Packer::Packer(const Layout& layout, const PackContext& context)
+Packer::Packer(const Layout& layout, const PackContext* context)
     : layout_(layout),
       context_(context),
       block_(types_of(layout)),
@@ -81,7 +83,7 @@ Packer::Packer(const Layout& layout, const PackContext& context)
 }
 
 Packer::~Packer() {
-    if (has_pipeline_) exr_encoding_destroy(context_.get(), &pipeline_);
+    if (has_pipeline_) exr_encoding_destroy(context_->get(), &pipeline_);
 }
 
 void Packer::pack(const Rect& rect, std::span<const Plane> planes, std::vector<std::byte>& out) {
@@ -92,12 +94,16 @@ void Packer::pack(const Rect& rect, std::span<const Plane> planes, std::vector<s
 }
 
 std::span<const std::byte> Packer::compressed(const Rect& rect, std::span<const Plane> planes) {
-    switch (layout_.compression) {
-        case Compression::kNone: gather(rect, planes); return samples_;
-        case Compression::kZip:
-        case Compression::kZips: gather(rect, planes); return deflated();
-        default: return packed_in_core(rect, planes);
-    }
+    if (uses_core(layout_)) return packed_in_core(rect, planes);
+    gather(rect, planes);
+    if (layout_.compression == Compression::kNone) return samples_;
+    return needs_helper(layout_.compression, layout_.channels) ? packed_in_helper(rect) : deflated();
+}
+
+bool Packer::uses_core(const Layout& layout) {
+    const Compression c = layout.compression;
+    return c != Compression::kNone && c != Compression::kZip && c != Compression::kZips &&
+           !needs_helper(c, layout.channels);
 }
 
 void Packer::gather(const Rect& rect, std::span<const Plane> planes) {
@@ -122,11 +128,11 @@ std::span<const std::byte> Packer::deflated() {
 // Without a function to write with, the pipeline packs and compresses only.
 std::span<const std::byte> Packer::packed_in_core(const Rect& rect, std::span<const Plane> planes) {
     exr_chunk_info_t chunk = {};
-    check(exr_write_scanline_chunk_info(context_.get(), 0, rect.y0, &chunk));
+    check(exr_write_scanline_chunk_info(context_->get(), 0, rect.y0, &chunk));
     if (has_pipeline_) {
-        check(exr_encoding_update(context_.get(), 0, &chunk, &pipeline_));
+        check(exr_encoding_update(context_->get(), 0, &chunk, &pipeline_));
     } else {
-        check(exr_encoding_initialize(context_.get(), 0, &chunk, &pipeline_));
+        check(exr_encoding_initialize(context_->get(), 0, &chunk, &pipeline_));
         has_pipeline_ = true;
     }
     for (std::size_t c = 0; c < planes.size(); ++c) {
@@ -137,19 +143,47 @@ std::span<const std::byte> Packer::packed_in_core(const Rect& rect, std::span<co
         channel.user_pixel_stride = static_cast<int32_t>(sample_size(planes[c].type));
         channel.user_line_stride = static_cast<int32_t>(planes[c].stride);
     }
-    check(exr_encoding_choose_default_routines(context_.get(), 0, &pipeline_));
+    check(exr_encoding_choose_default_routines(context_->get(), 0, &pipeline_));
     pipeline_.write_fn = nullptr;
     pipeline_.yield_until_ready_fn = nullptr;
-    check(exr_encoding_run(context_.get(), 0, &pipeline_));
+    check(exr_encoding_run(context_->get(), 0, &pipeline_));
     const bool smaller = pipeline_.compressed_bytes < pipeline_.packed_bytes;
     return {static_cast<const std::byte*>(smaller ? pipeline_.compressed_buffer : pipeline_.packed_buffer),
             smaller ? pipeline_.compressed_bytes : pipeline_.packed_bytes};
 }
 
+// The helper is sent the chunk as a file of its own, unpacked.
+std::span<const std::byte> Packer::packed_in_helper(const Rect& rect) {
+    Layout unpacked = layout_;
+    unpacked.display_window = unpacked.data_window = rect;
+    unpacked.compression = Compression::kNone;
+    unpacked.metadata = {};
+    std::vector<std::byte> chunks;
+    const std::size_t row = block_.pixel_bytes() * static_cast<std::size_t>(rect.width());
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        append(chunks, int32_t{y});
+        append(chunks, static_cast<uint32_t>(row));
+        const auto bytes = std::span(samples_).subspan(static_cast<std::size_t>(y - rect.y0) * row, row);
+        chunks.insert(chunks.end(), bytes.begin(), bytes.end());
+    }
+    HelperRequest request = {};
+    request.task = static_cast<HelperTask>(static_cast<uint32_t>(HelperTask::kPackFirst) +
+                                           static_cast<uint32_t>(layout_.compression));
+    request.sample_bytes = samples_.size();
+    try {
+        packed_ = helper_.run(request, file_of(unpacked, chunks));
+    } catch (const Failure& failure) {
+        fail(ErrorKind::kOutput, fmt::format("rows {} to {} can't be packed as {}: {}", rect.y0, rect.y1 - 1,
+                                             info(layout_.compression).name, failure.error().what));
+    }
+    return packed_;
+}
+
 std::size_t Packer::memory(const Layout& layout) {
     const int rows = std::min(layout.rows_per_chunk(), layout.data_window.height());
     const std::size_t bytes = BlockLayout(types_of(layout)).bytes({0, 0, layout.data_window.width(), rows});
-    return 5 * bytes + kCoreTables;
+    if (needs_helper(layout.compression, layout.channels)) return 12 * bytes + kHelperProcess;
+    return 5 * bytes + (uses_core(layout) ? kCoreTables : 0);
 }
 
 }  // namespace keyline::exr

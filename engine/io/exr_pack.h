@@ -5,6 +5,7 @@
 #include "engine/geometry.h"
 #include "engine/image.h"
 #include "engine/io/exr_format.h"
+#include "engine/io/exr_helper.h"
 #include "engine/io/exr_layout.h"
 
 #include <cstddef>
@@ -29,13 +30,16 @@ public:
     exr_context_t get() const { return context_; }
 
 private:
+    PackContext() = default;
+
     exr_context_t context_ = nullptr;
 };
 
 // Packs chunks for one part, one at a time, in buffers that are kept.
 class Packer {
 public:
-    Packer(const Layout& layout, const PackContext& context);
+    // `context`: null where uses_core() is false.
+    Packer(const Layout& layout, const PackContext* context);
     ~Packer();
     Packer(const Packer&) = delete;
     Packer& operator=(const Packer&) = delete;
@@ -47,23 +51,28 @@ public:
     // Bytes that pack() needs for itself.
     static std::size_t memory(const Layout& layout);
 
+    // Whether OpenEXRCore compresses this.
+    static bool uses_core(const Layout& layout);
+
 private:
     std::span<const std::byte> compressed(const Rect& rect, std::span<const Plane> planes);
     void gather(const Rect& rect, std::span<const Plane> planes);
     std::span<const std::byte> deflated();
     std::span<const std::byte> packed_in_core(const Rect& rect, std::span<const Plane> planes);
+    std::span<const std::byte> packed_in_helper(const Rect& rect);
 
     struct FreeCompressor {
         void operator()(libdeflate_compressor* compressor) const;
     };
 
     const Layout& layout_;
-    const PackContext& context_;
+    const PackContext* context_;
     BlockLayout block_;
     std::vector<std::byte> samples_, split_, packed_;
     std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor_;
     exr_encode_pipeline_t pipeline_ = {};
     bool has_pipeline_ = false;
+    Helper helper_;
 };
 
 }  // namespace keyline::exr

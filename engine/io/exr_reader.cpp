@@ -40,11 +40,11 @@ BlockLayout delivered_layout(const Part& part) {
 
 class Source final : public ImageSource {
 public:
-    Source(const std::filesystem::path& file, const OpenOptions& options)
-        : file_(file),
-          attributes_(read_attributes(file_)),
-          context_(file_),
-          parts_(read_parts(file_, context_, std::move(attributes_))) {
+    Source(const std::filesystem::path& file, const OpenOptions& options) : file_(file) {
+        // First, as it bounds how much there is for Core to parse.
+        std::vector<std::vector<Attribute>> attributes = read_attributes(file_);
+        context_ = std::make_unique<ReadContext>(file_);
+        parts_ = read_parts(file_, *context_, std::move(attributes));
         for (const TakenPart& taken : choose_parts(file_.name(), parts_, options)) {
             if (taken.channels.empty()) continue;
             refuse_excess(parts_[taken.index], options.max_chunk_bytes);
@@ -61,6 +61,7 @@ public:
     void read_chunk(std::size_t group, int column, int row, std::span<const Plane> planes) const override {
         const Group& g = *groups_[group];
         const Rect cell = header_.groups[group].chunk(column, row);
+        check_planes(header_.groups[group], cell, planes);
         const auto unpacker = g.unpackers.take();
         for (int y = cell.y0; y < cell.y1; y += g.block_rows) {
             const Rect rect = intersect(cell, {cell.x0, y, cell.x1, y + g.block_rows});
@@ -92,6 +93,14 @@ private:
         std::vector<std::size_t> channels;  // in the layout, in the group's order
         mutable Pool<Unpacker> unpackers;
     };
+
+    static void check_planes(const ChannelGroup& group, const Rect& cell, std::span<const Plane> planes) {
+        const auto fits = [](const Plane& p, const ChannelInfo& c) {
+            return p.data == nullptr || p.type == c.type;
+        };
+        if (cell.empty() || !std::ranges::equal(planes, group.channels, fits))
+            fail(ErrorKind::kInternal, "a chunk was asked for that is not there, or in other types");
+    }
 
     static bool wants(const Plane& plane, const Rect& rect) {
         return plane.data != nullptr && !intersect(plane.rect, rect).empty();
@@ -155,12 +164,11 @@ private:
         for (const Attribute& attribute : part.metadata.attributes())
             if (header_.metadata.find(attribute.name) == nullptr) header_.metadata.set(attribute);
         header_.groups.push_back(std::move(group));
-        groups_.push_back(std::make_unique<Group>(file_, context_, part, taken));
+        groups_.push_back(std::make_unique<Group>(file_, *context_, part, taken));
     }
 
     InputFile file_;
-    std::vector<std::vector<Attribute>> attributes_;  // moved into the parts
-    ReadContext context_;
+    std::unique_ptr<ReadContext> context_;
     std::vector<Part> parts_;
     ImageHeader header_;
     std::vector<std::unique_ptr<Group>> groups_;

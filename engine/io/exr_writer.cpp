@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 
 namespace keyline::exr {
@@ -63,8 +64,8 @@ public:
           is_empty_(spec.data_window.empty()),
           order_(sorted_order(spec.channels)),
           channels_(spec.channels),
-          pack_context_(layout_),
-          packers_([this] { return std::make_unique<Packer>(layout_, pack_context_); }),
+          pack_context_(Packer::uses_core(layout_) ? std::make_unique<PackContext>(layout_) : nullptr),
+          packers_([this] { return std::make_unique<Packer>(layout_, pack_context_.get()); }),
           header_(layout_.header()),
           file_(file) {
         for (ChannelInfo& channel : channels_) channel.type = stored_type(channel.type, spec.depth);
@@ -79,6 +80,7 @@ public:
 
     EncodedChunk encode(int index, std::span<const Plane> planes) const override {
         const Rect whole = chunk(index);
+        if (!is_empty_) check_planes(whole, planes);
         std::vector<Plane> sorted;
         std::vector<std::byte> zero(sizeof(float));
         for (const std::size_t i : order_)
@@ -118,11 +120,21 @@ private:
         return intersect(window, {window.x0, y, window.x1, y + chunk_height()});
     }
 
+    // What is wrong here would be read past its end below.
+    void check_planes(const Rect& rect, std::span<const Plane> planes) const {
+        const auto fits = [&](const Plane& p, const ChannelInfo& c) {
+            return p.data != nullptr && p.type == c.type && p.rect.contains(rect);
+        };
+        if (rect.empty() || !std::ranges::equal(planes, channels_, fits))
+            fail(ErrorKind::kInternal,
+                 fmt::format("rows {} to {} were not given as the file stores them", rect.y0, rect.y1 - 1));
+    }
+
     Layout layout_;
     bool is_empty_;
     std::vector<std::size_t> order_;  // the file's order, as places in the spec's
     std::vector<ChannelInfo> channels_;
-    PackContext pack_context_;
+    std::unique_ptr<PackContext> pack_context_;
     mutable Pool<Packer> packers_;
     std::vector<std::byte> header_;
     OutputFile file_;
@@ -145,6 +157,15 @@ Layout layout_of(const SinkSpec& spec) {
             fail(ErrorKind::kGraph, fmt::format("two channels are named {}", in_quotes(channel.name)));
         layout.channels.push_back({channel.name, stored_type(channel.type, spec.depth)});
     }
+    const double rows = std::min(layout.rows_per_chunk(), layout.data_window.height());
+    double chunk = 0;
+    for (const StoredChannel& c : layout.channels)
+        chunk += rows * layout.data_window.width() * static_cast<double>(sample_size(c.type));
+    if (chunk > std::numeric_limits<int32_t>::max())
+        fail(ErrorKind::kGraph,
+             fmt::format("{:.0f} rows of {} pixels are {:.0f} bytes; an OpenEXR file can have {} at once",
+                         rows, layout.data_window.width(), chunk, std::numeric_limits<int32_t>::max()),
+             "choose a compression with smaller chunks, or fewer channels");
     return layout;
 }
 

@@ -272,6 +272,13 @@ private:
 
 }  // namespace
 
+void check_picture(const std::filesystem::path& file, const SinkSpec& spec) {
+    const OutputFormat& format = output_format(file);
+    const Order order = order_of(file, format, spec.channels);
+    spec_of(format, spec, depth_of(file, format, spec.depth), order,
+            compression_of(file, format, spec.compression));
+}
+
 std::unique_ptr<ImageSink> create_picture(const std::filesystem::path& file, const SinkSpec& spec) {
     return std::make_unique<PictureSink>(file, output_format(file), spec);
 }

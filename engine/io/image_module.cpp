@@ -24,6 +24,7 @@ public:
 
     KeylineOpenImage* open;
     KeylineCreateImage* create;
+    KeylineCheckImage* check;
 
 private:
     Module() {
@@ -32,6 +33,7 @@ private:
         if (handle == nullptr) throw std::runtime_error(dlerror());
         open = reinterpret_cast<KeylineOpenImage*>(symbol(handle, "keyline_open_image"));
         create = reinterpret_cast<KeylineCreateImage*>(symbol(handle, "keyline_create_image"));
+        check = reinterpret_cast<KeylineCheckImage*>(symbol(handle, "keyline_check_image"));
     }
 
     static void* symbol(void* handle, const char* name) {
@@ -61,6 +63,10 @@ std::unique_ptr<ImageSource> open_with_module(const std::filesystem::path& file,
 
 std::unique_ptr<ImageSink> create_with_module(const std::filesystem::path& file, const SinkSpec& spec) {
     return std::unique_ptr<ImageSink>(module_for(file, ErrorKind::kOutput).create(file.c_str(), &spec));
+}
+
+void check_with_module(const std::filesystem::path& file, const SinkSpec& spec) {
+    module_for(file, ErrorKind::kOutput).check(file.c_str(), &spec);
 }
 
 std::filesystem::path module_folder() {

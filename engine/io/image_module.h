@@ -11,15 +11,17 @@
 // Formats other than OpenEXR are read and written by a module that is loaded when the first such file is met:
 // the libraries behind it are many, and a job without such files must not wait for them.
 //
-// The module is `keyline/keyline_image_io.so` in the folder of the Keyline library and defines the two
-// functions below.  They return an object that the caller owns, or throw Failure.
+// The module is `keyline/keyline_image_io.so` in the folder of the Keyline library and defines the functions
+// below.  What they return the caller owns; they may throw Failure.
 
 extern "C" {
 using KeylineOpenImage = keyline::ImageSource*(const char* path, const keyline::OpenOptions* options);
 using KeylineCreateImage = keyline::ImageSink*(const char* path, const keyline::SinkSpec* spec);
+using KeylineCheckImage = void(const char* path, const keyline::SinkSpec* spec);
 
 KeylineOpenImage keyline_open_image;
 KeylineCreateImage keyline_create_image;
+KeylineCheckImage keyline_check_image;
 }
 
 namespace keyline {
@@ -27,6 +29,7 @@ namespace keyline {
 // Throw Failure: kInput or kOutput where the module can't be loaded, else as open_image() and create_image().
 std::unique_ptr<ImageSource> open_with_module(const std::filesystem::path& file, const OpenOptions& options);
 std::unique_ptr<ImageSink> create_with_module(const std::filesystem::path& file, const SinkSpec& spec);
+void check_with_module(const std::filesystem::path& file, const SinkSpec& spec);
 
 // The folder of Keyline's own modules and helper programs, beside its library.
 std::filesystem::path module_folder();

@@ -65,6 +65,9 @@ public:
 // (depth, channels, compression), naming what it can.
 std::unique_ptr<ImageSink> create_image(const std::filesystem::path& file, const SinkSpec& spec);
 
+// Throws what create_image() would for a format that can't hold what is asked, and makes nothing.
+void check_image(const std::filesystem::path& file, const SinkSpec& spec);
+
 // Whether `file` opens and has the windows and channels of `spec` (--skip-existing).
 bool is_finished(const std::filesystem::path& file, const SinkSpec& spec);
 

@@ -69,6 +69,13 @@ std::unique_ptr<ImageSink> create_image(const std::filesystem::path& file, const
     return has_exr_name(file) ? exr::create_exr(file, spec) : create_with_module(file, spec);
 }
 
+void check_image(const std::filesystem::path& file, const SinkSpec& spec) {
+    if (has_exr_name(file))
+        exr::layout_of(spec);
+    else
+        check_with_module(file, spec);
+}
+
 bool is_finished(const std::filesystem::path& file, const SinkSpec& spec) {
     try {
         const std::unique_ptr<ImageSource> image = open_image(file);

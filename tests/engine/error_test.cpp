@@ -3,6 +3,7 @@
 #include "engine/error.h"
 
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace keyline {
 namespace {
@@ -41,6 +42,29 @@ TEST(DidYouMean, FindsTheNearestAndOnlyNearOnes) {
     EXPECT_EQ(did_you_mean("sgma", {"in", "sigma"}), "did you mean 'sigma'?");
     EXPECT_EQ(did_you_mean("radius", {"in", "sigma"}), "");
     EXPECT_EQ(did_you_mean("a", {"b"}), "");
+}
+
+TEST(DidYouMean, NeighboursSwappedAreOneSlip) {
+    // With two words at hand, the swap decides.
+    EXPECT_EQ(did_you_mean("sgima", {"sigma", "sgimnb"}), "did you mean 'sigma'?");
+    EXPECT_EQ(did_you_mean("ab", {"ba"}), "did you mean 'ba'?");
+}
+
+TEST(Warning, NeverHoldsTheWordOfErrors) {
+    const Error w{ErrorKind::kFailed, {"g.json", 1, 2}, {}, "error: Error: ERROR: in 'error:.exr'", {}};
+    EXPECT_EQ(w.warning_text(), "g.json:1:2: warning: error : Error : ERROR : in 'error :.exr'");
+}
+
+TEST(Diagnostics, SortsByPlaceAndKeepsTheOrderWithin) {
+    Diagnostics d;
+    for (const auto& [line, column, what] :
+         {std::tuple(3, 1, "e"), {2, 9, "c"}, {2, 9, "d"}, {0, 0, "b"}, {2, 1, "x"}})
+        d.error({ErrorKind::kGraph, {"file", line, column}, {}, what, {}});
+    d.error({ErrorKind::kGraph, {}, {}, "a", {}});
+    d.sort_by_place();
+    std::string order;
+    for (const Error& e : d.errors()) order += e.what;
+    EXPECT_EQ(order, "abxcde");
 }
 
 TEST(Listed, ReadsAsASentence) {

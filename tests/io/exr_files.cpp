@@ -83,10 +83,9 @@ Imf::Header header_of(const TestPart& part) {
 
 // OpenEXR's C++ library wants the address that (0, 0) would have.
 char* origin(Pixels& pixels, int x_sampling = 1, int y_sampling = 1) {
-    const auto address = reinterpret_cast<intptr_t>(pixels.bytes.data()) -
-                         pixels.window.y0 / y_sampling * pixels.stride() / x_sampling -
-                         pixels.window.x0 / x_sampling * static_cast<intptr_t>(sample_size(pixels.type));
-    return reinterpret_cast<char*>(address);
+    return reinterpret_cast<char*>(pixels.bytes.data()) -
+           pixels.window.y0 / y_sampling * pixels.stride() / x_sampling -
+           pixels.window.x0 / x_sampling * static_cast<std::ptrdiff_t>(sample_size(pixels.type));
 }
 
 Imf::Slice slice(Pixels& pixels) {

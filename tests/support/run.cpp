@@ -202,8 +202,7 @@ ResolvedFrame resolve_graph(const Json& nodes, const std::vector<std::string>& i
 
 std::vector<Image> render(Plan plan) {
     const int threads = plan.threads;
-    FrameRun frame(std::move(plan));
-    Executor(threads).run(frame, false);
+    Executor(threads, 0).run(std::make_unique<FrameRun>(std::move(plan)), false);
     return shelf().written;
 }
 

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/program.h"
+
+#include <csignal>
+#include <gmock/gmock.h>
+
+// What stands in the folder after a run that did not end well.
+
+namespace keyline::test {
+
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// Seconds of work, so that a signal surely comes in the middle of it.
+constexpr const char* kSlow = R"(
+    "c":    { "type": "constant", "color": [0.5, 0.25, 0], "size": [6000, 6000] },
+    "blur": { "type": "gaussian", "in": "c", "sigma": 100 },
+    "out":  { "type": "write", "in": "blur", "file": "out.exr" })";
+
+class Outputs : public ProgramTest {
+protected:
+    // Renders until a frame is under way, then sends the signal.
+    Outcome interrupt(int signal) const {
+        Process process({"render", "graph.json", "--progress", "json", "--threads", "1"},
+                        {.folder = folder()});
+        EXPECT_TRUE(process.read_until("frame_started"));
+        process.signal(signal);
+        return process.wait();
+    }
+};
+
+TEST_F(Outputs, SigintLeavesNothing) {
+    graph(kSlow);
+    const Outcome run = interrupt(SIGINT);
+    EXPECT_EQ(run.status, 130) << run.err;
+    EXPECT_THAT(files(), ElementsAre("graph.json"));
+}
+
+TEST_F(Outputs, SigtermLeavesNothing) {
+    graph(kSlow);
+    EXPECT_EQ(interrupt(SIGTERM).status, 143);
+    EXPECT_THAT(files(), ElementsAre("graph.json"));
+}
+
+TEST_F(Outputs, SigkillLeavesNothingUnderTheName) {
+    graph(kSlow);
+    write("out.exr", "what was there before");
+    EXPECT_EQ(interrupt(SIGKILL).status, -SIGKILL);
+    EXPECT_EQ(read(folder() / "out.exr"), "what was there before");
+}
+
+TEST_F(Outputs, AnIgnoredSignalStaysIgnored) {
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [512, 512] },
+             "out": { "type": "write", "in": "c", "file": "out.exr" })");
+    const auto before = std::signal(SIGINT, SIG_IGN);
+    Process process({"render", "graph.json", "--progress", "json"}, {.folder = folder()});
+    std::signal(SIGINT, before);
+    process.signal(SIGINT);
+    EXPECT_EQ(process.wait().status, 0);
+}
+
+TEST_F(Outputs, AnOlderFileStaysWhenARenderFails) {
+    write("plate.exr", read(plates() / "street.0001.exr").substr(0, 200000));
+    write("out.exr", "what was there before");
+    graph(R"("r": { "type": "read", "file": "plate.exr" },
+             "out": { "type": "write", "in": "r", "file": "out.exr" })");
+    EXPECT_EQ(keyline({"render", "graph.json"}).status, 3);
+    EXPECT_EQ(read(folder() / "out.exr"), "what was there before");
+    EXPECT_THAT(files(), ElementsAre("graph.json", "out.exr", "plate.exr"));
+}
+
+TEST_F(Outputs, AnOlderFileIsReplacedAndFoldersAreMade) {
+    write("old/out.exr", "what was there before");
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "a": { "type": "write", "in": "c", "file": "old/out.exr" },
+             "b": { "type": "write", "in": "c", "file": "new/deep/out.exr" })");
+    EXPECT_EQ(keyline({"render", "graph.json"}).status, 0);
+    EXPECT_EQ(read(folder() / "old/out.exr"), read(folder() / "new/deep/out.exr"));
+}
+
+TEST_F(Outputs, ASymbolicLinkIsWrittenThrough) {
+    fs::create_directory(folder() / "real");
+    fs::create_symlink("real/out.exr", folder() / "out.exr");
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "out": { "type": "write", "in": "c", "file": "out.exr" })");
+    EXPECT_EQ(keyline({"render", "graph.json"}).status, 0);
+    EXPECT_TRUE(fs::is_symlink(folder() / "out.exr"));
+    EXPECT_TRUE(fs::is_regular_file(folder() / "real/out.exr"));
+}
+
+TEST_F(Outputs, TwoNamesOfOneFileAreTwoWritesToIt) {
+    fs::create_directory(folder() / "real");
+    fs::create_directory_symlink("real", folder() / "link");
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "a": { "type": "write", "in": "c", "file": "real/out.exr" },
+             "b": { "type": "write", "in": "c", "file": "link/../real/./out.exr" })");
+    const Outcome run = keyline({"render", "graph.json"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, HasSubstr("is written by node 'a' (write) too"));
+}
+
+TEST_F(Outputs, AWriteOntoAnInputIsRefusedUnlessNothingReadsIt) {
+    fs::copy(plates() / "street.0001.exr", folder() / "plate.exr");
+    const std::string before = read(folder() / "plate.exr");
+    graph(R"("r": { "type": "read", "file": "plate.exr" },
+             "out": { "type": "write", "in": "r:Combined", "file": "./plate.exr" })");
+    EXPECT_EQ(keyline({"render", "graph.json"}).status, 2);
+    EXPECT_EQ(read(folder() / "plate.exr"), before);
+    graph(R"("r": { "type": "read", "file": "plate.exr" },
+             "c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "out": { "type": "write", "in": "c", "file": "plate.exr" })");
+    EXPECT_EQ(keyline({"render", "graph.json"}).status, 0);
+}
+
+}  // namespace
+
+}  // namespace keyline::test

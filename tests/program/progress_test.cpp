@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/program.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+// What a render says while it runs.
+
+namespace keyline::test {
+
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr const char* kNodes = R"(
+    "c":   { "type": "constant", "color": [0, 0, 0], "size": [16, 16] },
+    "spare": { "type": "gaussian", "in": "c" },
+    "out": { "type": "write", "in": "c", "file": "out.#.exr" })";
+
+class Progress : public ProgramTest {
+protected:
+    Outcome render(const std::string& mode) const {
+        return keyline({"render", "graph.json", "--frames", "1-3", "--progress", mode});
+    }
+    static std::vector<nlohmann::json> events(const std::string& text) {
+        std::vector<nlohmann::json> out;
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) out.push_back(nlohmann::json::parse(line));
+        return out;
+    }
+};
+
+TEST_F(Progress, LinesAreWhatAPipeGets) {
+    graph(kNodes);
+    for (const char* mode : {"auto", "lines"}) {
+        const Outcome run = render(mode);
+        EXPECT_EQ(run.out, "");
+        EXPECT_THAT(run.err, HasSubstr("frame 2: done in "));
+        EXPECT_THAT(run.err, HasSubstr("(2 of 3)"));
+        EXPECT_THAT(run.err, Not(HasSubstr("\r")));
+    }
+}
+
+TEST_F(Progress, NoneTellsWarningsOnly) {
+    graph(kNodes);
+    const Outcome run = render("none");
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(
+        run.err,
+        "graph.json:3:5: warning: node 'spare' (gaussian): nothing that is written uses it; it is not run\n");
+}
+
+TEST_F(Progress, TheBarIsDrawnAnewAndTakenAway) {
+    graph(kNodes);
+    const Outcome run = render("bar");
+    EXPECT_THAT(run.err, HasSubstr("\r\x1b[K[=====     "));
+    EXPECT_THAT(run.err, HasSubstr("3 of 3, frame 3 done"));
+    EXPECT_THAT(run.err, HasSubstr("\r\x1b[K3 of 3 frames done"));
+}
+
+TEST_F(Progress, JsonIsAnObjectALine) {
+    graph(kNodes);
+    const auto all = events(render("json").err);
+    std::vector<std::string> names;
+    for (const auto& e : all) names.push_back(e.at("event"));
+    EXPECT_THAT(names,
+                testing::ElementsAre("warning", "start", "frame_started", "frame_ended", "frame_started",
+                                     "frame_ended", "frame_started", "frame_ended", "end"));
+    EXPECT_EQ(all[1].at("frames"), 3);
+    EXPECT_EQ(all[2].at("outputs").at(0), "out.1.exr");
+    EXPECT_EQ(all[3].at("outcome"), "done");
+    EXPECT_EQ(all.back().at("done"), 3);
+}
+
+TEST_F(Progress, JsonHoldsErrorsToo) {
+    graph(R"("r": { "type": "read", "file": "in.#.exr" },
+             "out": { "type": "write", "in": "r", "file": "out.#.exr" })");
+    const Outcome run = render("json");
+    EXPECT_EQ(run.status, 3);
+    bool told = false;
+    for (const auto& e : events(run.err))
+        told = told || (e.at("event") == "error" &&
+                        e.at("text").get<std::string>().find("in.1.exr") != std::string::npos);
+    EXPECT_TRUE(told) << run.err;
+}
+
+TEST_F(Progress, WarningsNeverHoldTheWordOfErrors) {
+    graph(R"("error: Error:": 1)");
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "r": { "type": "read", "file": "error:ERROR:.#.exr", "missing": "hold" },
+             "out": { "type": "write", "in": "r", "file": "out.#.exr" })");
+    fs::copy(plates() / "street.0001.exr", folder() / "error:ERROR:.1.exr");
+    const Outcome run = render("lines");
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("warning: "));
+    for (const char* word : {"error:", "Error:", "ERROR:"}) EXPECT_THAT(run.err, Not(HasSubstr(word)));
+}
+
+TEST_F(Progress, AReaderThatGoesAwayStopsNoRender) {
+    graph(kNodes);
+    Process process({"render", "graph.json", "--frames", "1-3", "--progress", "lines"}, {.folder = folder()});
+    process.close_standard_error();
+    EXPECT_EQ(process.wait().status, 0);
+    EXPECT_TRUE(exists("out.3.exr"));
+}
+
+}  // namespace
+
+}  // namespace keyline::test

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/program.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+// The commands that tell: check, plan, nodes, info, --version, --help.
+
+namespace keyline::test {
+
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::json;
+
+class Report : public ProgramTest {
+protected:
+    std::string plate() const { return (plates() / "street.0001.exr").string(); }
+
+    void sequence_graph() const {
+        fs::copy(plates() / "street.0001.exr", folder() / "in.0007.exr");
+        fs::copy(plates() / "street.0002.exr", folder() / "in.0009.exr");
+        graph(R"("r":     { "type": "read", "file": "in.####.exr" },
+                 "y":     { "type": "ycolor", "in": "r:Combined" },
+                 "slope": { "type": "gradient", "in": "y" },
+                 "edges": { "type": "hysteresis", "in": "slope", "low": 0.1, "high": 0.3 },
+                 "out":   { "type": "write", "in": "edges", "file": "out.####.exr" })");
+    }
+};
+
+TEST_F(Report, CheckSaysWhatItLookedAt) {
+    sequence_graph();
+    const Outcome run = keyline({"check", "graph.json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out, "graph.json: ok: 5 nodes, 1 output, frame 7\n");
+    EXPECT_THAT(run.err, HasSubstr("frame 7, the first on disk"));
+    EXPECT_FALSE(exists("out.0007.exr"));
+}
+
+TEST_F(Report, CheckLooksAtAllFramesGiven) {
+    sequence_graph();
+    EXPECT_EQ(keyline({"check", "graph.json", "--frames", "7,9"}).status, 0);
+    const Outcome run = keyline({"check", "graph.json", "--frames", "7-9"});
+    EXPECT_EQ(run.status, 3);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, HasSubstr("in.0008.exr: no such file; on disk are frames 7, 9"));
+}
+
+TEST_F(Report, PlanTellsSweepsWithoutWriting) {
+    sequence_graph();
+    const Outcome run = keyline({"plan", "graph.json", "--tile", "64", "--threads", "3"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    for (const char* text :
+         {"frame 7: 2 sweeps on 3 threads", "input in.0007.exr, node 'r' (read)", "3 of 22 channels",
+          "480 × 270 at (0, 0), 40 tiles of 64 × 64", "gather   node 'edges' (hysteresis)",
+          "apply    node 'edges' (hysteresis)", "write    out.0007.exr"})
+        EXPECT_THAT(run.out, HasSubstr(text));
+    EXPECT_FALSE(exists("out.0007.exr"));
+}
+
+TEST_F(Report, PlanOfAGraphThatNeedsMoreMemoryFails) {
+    sequence_graph();
+    const Outcome run = keyline({"plan", "graph.json", "--memory", "1M"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, "");
+}
+
+TEST_F(Report, NodesListsEveryType) {
+    const Outcome run = keyline({"nodes"});
+    EXPECT_EQ(run.status, 0);
+    for (const char* name : {"\n  read ", "\n  write ", "\n  gaussian ", "\n  hysteresis ", "\n  over "})
+        EXPECT_THAT("\n" + run.out, HasSubstr(name));
+}
+
+TEST_F(Report, NodesTellsOneTypeInFull) {
+    const Outcome run = keyline({"nodes", "gaussian"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.out, HasSubstr("sigma: a number or [x, y], from 0 to 500 pixels (default 1)"));
+    EXPECT_THAT(run.out, HasSubstr("in: an input (required)"));
+}
+
+TEST_F(Report, NodesSuggestsANearName) {
+    const Outcome run = keyline({"nodes", "hystersis"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, "error: there is no node type 'hystersis'; did you mean 'hysteresis'?\n");
+}
+
+TEST_F(Report, NodesAsMarkdownHasEveryTypeAndParameter) {
+    const std::string text = keyline({"nodes", "--markdown"}).out;
+    const Json schema = Json::parse(keyline({"nodes", "--schema"}).out);
+    for (const auto& [name, type] : schema.at("$defs").items()) {
+        if (name == "variable") continue;
+        EXPECT_THAT(text, HasSubstr("\n### " + name + "\n"));
+        for (const auto& [field, unused] : type.at("properties").items()) {
+            if (field == "type" || field == "about") continue;
+            EXPECT_THAT(text, HasSubstr("| `" + field + "` |"));
+        }
+    }
+}
+
+TEST_F(Report, TheSchemaKnowsTypesRangesAndWords) {
+    const Json schema = Json::parse(keyline({"nodes", "--schema"}).out);
+    EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
+    const Json& gaussian = schema.at("$defs").at("gaussian");
+    EXPECT_EQ(gaussian.at("required"), Json::parse(R"(["in"])"));
+    EXPECT_EQ(gaussian.at("additionalProperties"), false);
+    const Json& sigma = gaussian.at("properties").at("sigma");
+    EXPECT_EQ(sigma.at("default"), 1);
+    EXPECT_EQ(sigma.at("anyOf").at(0), Json::parse(R"({ "type": "number", "minimum": 0, "maximum": 500 })"));
+    const Json& depth = schema.at("$defs").at("write").at("properties").at("depth").at("anyOf").at(0);
+    EXPECT_EQ(depth.at("enum"), Json::parse(R"(["auto", "half", "float", "uint8", "uint16"])"));
+}
+
+TEST_F(Report, InfoTellsAPlate) {
+    const Outcome run = keyline({"info", plate()});
+    EXPECT_EQ(run.status, 0) << run.err;
+    for (const char* text : {"openexr, 1 part", "480 × 270 at (0, 0)", "scanline, zip",
+                             "ViewLayer.Combined: R G B A half", "ViewLayer.Depth: Z float", "cryptomatte/"})
+        EXPECT_THAT(run.out, HasSubstr(text));
+}
+
+TEST_F(Report, InfoAsJson) {
+    const Json all = Json::parse(keyline({"info", "--json", plate()}).out);
+    ASSERT_EQ(all.size(), 1U);
+    const Json& part = all.at(0).at("parts").at(0);
+    EXPECT_EQ(part.at("dataWindow"), Json::parse(R"({ "x": 0, "y": 0, "width": 480, "height": 270 })"));
+    EXPECT_EQ(part.at("compression"), "zip");
+    EXPECT_EQ(part.at("channels").size(), 22U);
+    EXPECT_EQ(part.at("channels").at(0),
+              Json::parse(R"({ "name": "ViewLayer.Combined.A", "type": "half" })"));
+    EXPECT_EQ(part.at("attributes").at("pixelAspectRatio").at("value"), 1);
+}
+
+TEST_F(Report, InfoOfSeveralFilesTellsThoseItCanRead) {
+    write("none.exr", "no image");
+    const Outcome run = keyline({"info", plate(), "none.exr", "missing.exr"});
+    EXPECT_EQ(run.status, 3);
+    EXPECT_THAT(run.out, HasSubstr("street.0001.exr: openexr"));
+    EXPECT_THAT(run.err, HasSubstr("none.exr"));
+    EXPECT_THAT(run.err, HasSubstr("missing.exr"));
+}
+
+TEST_F(Report, VersionNamesTheLibraries) {
+    const Outcome run = keyline({"--version"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_TRUE(run.out.starts_with("keyline ")) << run.out;
+    for (const char* name : {"OpenEXR", "Imath", "OpenColorIO", "oneTBB", "Highway", "libdeflate", "fmt"})
+        EXPECT_THAT(run.out, testing::ContainsRegex(std::string(name) + " +[0-9]+\\."));
+    EXPECT_EQ(run.err, "");
+}
+
+TEST_F(Report, HelpIsAResult) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"--help"}, {"render", "--help"}, {"check", "-h"}, {"info", "--help"}}) {
+        const Outcome run = keyline(arguments);
+        EXPECT_EQ(run.status, 0);
+        EXPECT_THAT(run.out, HasSubstr("Usage: keyline"));
+        EXPECT_EQ(run.err, "");
+    }
+    EXPECT_THAT(keyline({"render", "--help"}).out, HasSubstr("--keep-going"));
+    EXPECT_THAT(keyline({"check", "--help"}).out, Not(HasSubstr("--keep-going")));
+}
+
+}  // namespace
+
+}  // namespace keyline::test
