@@ -213,7 +213,6 @@ void BitRows::copy_row(int y, int x0, int n, uint64_t* to) const {
         to[w] = from[w] >> shift;
         if (shift != 0 && w + 1 < available) to[w] |= from[w + 1] << (64 - shift);
     }
-    if (n % 64 != 0) to[n / 64] &= mask(0, n % 64);
 }
 
 BlockComponents find_components(const BitRows& pixels, const BitRows& seeds) {

@@ -33,7 +33,8 @@ public:
     bool any(int y, int x0, int x1) const;
     void add(const BitRows& block);  // bits of a bitmap inside this one
 
-    // n pixels of row y from x0 on, to words of their own; bits behind the last pixel are 0.
+    // n pixels of row y from x0 on, from bit 0 of `to` on; words_for(n) words, of which the bits behind the
+    // last pixel may be anything.
     void copy_row(int y, int x0, int n, uint64_t* to) const;
 
 private:

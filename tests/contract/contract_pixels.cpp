@@ -78,10 +78,9 @@ void sprinkle(Image& image, Draw& draw) {
 }
 
 const std::vector<Rect>& odd_windows() {
-    static const std::vector<Rect> windows{
-        {0, 0, 0, 0},        {7, -3, 7, 9},     {0, 0, 1, 1}, {-8, 5, -7, 6},
-        {3, 3, 40, 4},       {-2, -20, -1, 20}, {0, 0, 2, 2}, {1000, -700, 1020, -690},
-        {-65, -65, -63, -63}};
+    static const std::vector<Rect> windows{{0, 0, 0, 0},   {7, -3, 7, 9},       {0, 0, 1, 1},
+                                           {-8, 5, -7, 6}, {3, 3, 40, 4},       {-2, -20, -1, 20},
+                                           {0, 0, 2, 2},   {-65, -65, -63, -63}};
     return windows;
 }
 
@@ -107,10 +106,13 @@ Complaints check_special_values(const NodeType& type) {
 }
 
 Complaints check_windows(const NodeType& type) {
-    const auto odd = [](Draw& draw) { return draw.of(odd_windows()); };
-    return on_cases(type, 25, odd, [](const NodeCase& c, Draw&, const auto& complain) {
+    const auto check = [](const NodeCase& c, Draw&, const auto& complain) {
         compare_schedules(c, {7, 64}, {2}, complain);
-    });
+    };
+    const auto odd = [](Draw& draw) { return draw.of(odd_windows()); };
+    const auto far = [](Draw& draw) { return translate(draw.window(), 100000, -70000); };
+    Complaints out = on_cases(type, 25, odd, check);
+    return out.empty() ? on_cases(type, 3, far, check) : out;
 }
 
 Complaints check_identity(const NodeType& type) {

@@ -48,7 +48,9 @@ BitRows flooded(const Bitmaps& in) {
 
 BitRows cut(const BitRows& from, const Rect& block) {
     BitRows out(block);
-    for (int y = block.y0; y < block.y1; ++y) from.copy_row(y, block.x0, block.width(), out.row(y));
+    for (int y = block.y0; y < block.y1; ++y)
+        for (int x = block.x0; x < block.x1; ++x)
+            if (from.test(x, y)) out.set(y, x, x + 1);
     return out;
 }
 

@@ -49,6 +49,39 @@ TEST(Over, MixAndMaskScaleTheForeground) {
     EXPECT_IMAGE_NEAR(out, rgba(w, 0.25F, 0.25F, 0.25F, 1), 1e-7);
 }
 
+// fg k + bg (1 - fg.A k) with k = mix × mask, every input 0 outside its window.
+TEST(Over, AgreesWithTheDefinitionWhereverTheWindowsLie) {
+    const Rect windows[] = {{0, 0, 40, 30}, {-20, -5, 12, 44}, {35, 25, 60, 26}, {100, 100, 110, 103}};
+    const Image bg = noise(windows[0], {"R", "G", "B", "A"}, 1, -1, 3);
+    for (const Rect& fg_window : windows)
+        for (const Rect& mask_window : windows) {
+            const Image fg = noise(fg_window, {"R", "G", "B", "A"}, 2, 0, 1),
+                        mask = noise(mask_window, {"Y"}, 3);
+            Image expected(unite(fg_window, bg.window), {"R", "G", "B", "A"});
+            expected.display = bg.display;
+            for (const char* c : {"R", "G", "B", "A"})
+                expected.fill(c, [&](int x, int y) {
+                    const double k = 0.75 * static_cast<double>(mask.at("Y", x, y));
+                    return static_cast<double>(fg.at(c, x, y)) * k +
+                           static_cast<double>(bg.at(c, x, y)) *
+                               (1 - static_cast<double>(fg.at("A", x, y)) * k);
+                });
+            EXPECT_IMAGE_NEAR(
+                run("over", {{"mix", 0.75}}, {{"fg", fg}, {"bg", bg}, {"mask", mask}}, {.tile = 16}),
+                expected, 3e-6);
+        }
+}
+
+TEST(Over, TakesWindowAndMetadataFromTheBackground) {
+    Image fg = rgba({0, 0, 2, 2}, 1, 1, 1, 1), bg = rgba({0, 0, 4, 4}, 0, 0, 0, 1);
+    fg.display = {0, 0, 100, 100};
+    fg.metadata.set({"artist", "string", std::string("fg")});
+    bg.metadata.set({"artist", "string", std::string("bg")});
+    const Image out = run("over", {}, {{"fg", fg}, {"bg", bg}});
+    EXPECT_EQ(out.display, bg.display);
+    EXPECT_EQ(std::get<std::string>(out.metadata.find("artist")->value), "bg");
+}
+
 TEST(Over, OtherChannelsOfTheBackgroundPass) {
     Image bg = rgba({0, 0, 3, 1}, 1, 1, 1, 1);
     bg.channels.push_back({"depth.Z", SampleType::kFloat, {7, 8, 9}});
