@@ -137,11 +137,12 @@ TEST(Execute, StopsSoonAfterItIsCancelled) {
     for (const int threads : {1, 3}) {
         Canceller::tiles() = 0;
         Canceller::cancel() = false;
-        FrameRun frame(make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}}, {"n"},
-                                               {{"in", {Image({0, 0, 200, 200}, {"Y"})}}}),
-                                 {threads, 10, 0}));
+        auto frame = std::make_unique<FrameRun>(
+            make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}}, {"n"},
+                                    {{"in", {Image({0, 0, 200, 200}, {"Y"})}}}),
+                      {threads, 10, 0}));
         try {
-            Executor(threads).run(frame, Canceller::cancel());
+            Executor(threads).run(std::move(frame), Canceller::cancel());
             FAIL() << "it ran to the end";
         } catch (const Failure& f) {
             EXPECT_EQ(f.error().kind, ErrorKind::kCancelled);
@@ -153,10 +154,11 @@ TEST(Execute, StopsSoonAfterItIsCancelled) {
 TEST(Execute, CancelledBeforeItBeginsItComputesNothing) {
     register_test_nodes<Canceller>();
     Canceller::tiles() = 0;
-    FrameRun frame(make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}}, {"n"},
-                                           {{"in", {Image({0, 0, 20, 20}, {"Y"})}}}),
-                             {2, 10, 0}));
-    EXPECT_THROW(Executor(2).run(frame, true), Failure);
+    auto frame =
+        std::make_unique<FrameRun>(make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}},
+                                                           {"n"}, {{"in", {Image({0, 0, 20, 20}, {"Y"})}}}),
+                                             {2, 10, 0}));
+    EXPECT_THROW(Executor(2).run(std::move(frame), true), Failure);
     EXPECT_EQ(Canceller::tiles(), 0);
 }
 
