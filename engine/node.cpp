@@ -61,7 +61,7 @@ std::vector<ValueRef> take_channels(const Stream& stream, const Takes& takes) {
         case Takes::Kind::kColour: {
             const ColourChannels c = find_colour(names);
             taken = {c.r, c.g, c.b};
-            if (c.a) taken.push_back(*c.a);
+            if (c.a && takes.alpha) taken.push_back(*c.a);
             break;
         }
         case Takes::Kind::kMatte:
