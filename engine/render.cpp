@@ -15,7 +15,7 @@ namespace keyline {
 namespace {
 
 ResolveOptions resolve_options(const Graph& graph, const RenderOptions& options, bool every_node) {
-    return {options.ocio.empty() ? graph.ocio() : options.ocio, every_node, false};
+    return {options.ocio.empty() ? graph.ocio() : options.ocio, every_node, false, true};
 }
 
 std::optional<ResolvedFrame> resolve_checked(const Graph& graph, int frame, const ResolveOptions& options,

@@ -31,11 +31,14 @@ Image layered_image(Draw& draw) {
     return image;
 }
 
+// Keyline's own: other tests of this program register nodes that misbehave.
 std::vector<const NodeType*> computing_types() {
     std::vector<const NodeType*> out;
-    for (const auto& [name, type] : registry().types())
-        if (!has_files(type) && type.kind != NodeKind::kSource && type.kind != NodeKind::kSink)
-            out.push_back(&type);
+    for (const NodeType& built_in : built_in_nodes()) {
+        const NodeType* type = registry().find(built_in.name);
+        if (!has_files(*type) && type->kind != NodeKind::kSource && type->kind != NodeKind::kSink)
+            out.push_back(type);
+    }
     return out;
 }
 

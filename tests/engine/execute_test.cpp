@@ -7,6 +7,8 @@
 
 #include <atomic>
 #include <gmock/gmock.h>
+#include <map>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 
@@ -87,6 +89,54 @@ struct Canceller {
     }
 };
 
+// Counts what is decoded of it: chunks of 16 × 8 pixels, four channels.
+class CountedSource final : public ImageSource {
+public:
+    CountedSource() {
+        header_.display_window = header_.data_window = {0, 0, 160, 80};
+        header_.groups.push_back({{}, header_.data_window, 16, 8});
+        for (const char* name : {"R", "G", "B", "Z"})
+            header_.groups[0].channels.push_back({name, SampleType::kFloat});
+    }
+    const ImageHeader& header() const override { return header_; }
+    std::size_t chunk_memory(std::size_t) const override { return 0; }
+    void read_chunk(std::size_t, int column, int row, std::span<const Plane> planes) const override {
+        const std::lock_guard lock(mutex_);
+        for (std::size_t c = 0; c < planes.size(); ++c)
+            if (planes[c].data) ++decoded_[{static_cast<int>(c), column, row}];
+    }
+
+    using Count = std::map<std::array<int, 3>, int>;  // by channel, column and row of chunks
+    Count decoded() const { return decoded_; }
+
+private:
+    ImageHeader header_;
+    mutable std::mutex mutex_;
+    mutable Count decoded_;
+};
+
+struct Counted {
+    static constexpr Info info{"counted", "Counts what is decoded of it."};
+    struct Params {
+        static constexpr auto fields = declare();
+    };
+    explicit Counted(const Params&) {}
+    static Stream read(Builder& builder) {
+        return builder.add_source(source() = std::make_shared<CountedSource>());
+    }
+    static std::shared_ptr<CountedSource>& source() {
+        static std::shared_ptr<CountedSource> last;
+        return last;
+    }
+};
+
+CountedSource::Count decoded_for(Json nodes, const std::string& id, const PlanOptions& options = {2, 0, 0}) {
+    register_test_nodes<Counted, Crop>();
+    nodes.set("in", {{"type", "counted"}});
+    render(make_plan(resolve_graph(nodes, {id}, {}), options));
+    return Counted::source()->decoded();
+}
+
 Error error_of_run(const Json& node, int threads) {
     register_test_nodes<Broken, BrokenMap>();
     try {
@@ -96,6 +146,27 @@ Error error_of_run(const Json& node, int threads) {
         return f.error();
     }
     return {};
+}
+
+TEST(Execute, DecodesOnlyTheChannelsAndChunksInUse) {
+    const Json nodes{{"wide", {{"type", "dilate"}, {"in", "in:Z"}, {"radius", 1}}},
+                     {"part", {{"type", "crop"}, {"in", "wide"}, {"window", {40, 17, 49, 23}}}}};
+    // With the halo x from 39 to 50 and y from 16 to 24: columns 2 and 3, row 2.
+    EXPECT_THAT(decoded_for(nodes, "part"),
+                ::testing::ElementsAre(std::pair(std::array{3, 2, 2}, 1), std::pair(std::array{3, 3, 2}, 1)));
+}
+
+TEST(Execute, DecodesEachChunkOnceWhereThereIsMemory) {
+    const Json nodes{{"grey", {{"type", "ycolor"}, {"in", "in"}}},
+                     {"edges", {{"type", "hysteresis"}, {"in", "grey"}, {"low", 0.1}, {"units", "max"}}},
+                     {"ink", {{"type", "ink"}, {"in", "edges"}}},
+                     {"comp", {{"type", "over"}, {"fg", "ink"}, {"bg", "in"}}}};
+    for (const int tile : {0, 5, 32}) {
+        const CountedSource::Count counted = decoded_for(nodes, "comp", {3, tile, 0});
+        EXPECT_EQ(counted.size(), 4U * 10 * 10);
+        for (const auto& [where, times] : counted)
+            EXPECT_EQ(times, 1) << where[0] << ' ' << where[1] << ' ' << where[2];
+    }
 }
 
 TEST(Execute, ANodesFailureNamesNodeAndFrame) {
@@ -137,12 +208,11 @@ TEST(Execute, StopsSoonAfterItIsCancelled) {
     for (const int threads : {1, 3}) {
         Canceller::tiles() = 0;
         Canceller::cancel() = false;
-        auto frame = std::make_unique<FrameRun>(
-            make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}}, {"n"},
-                                    {{"in", {Image({0, 0, 200, 200}, {"Y"})}}}),
-                      {threads, 10, 0}));
+        Plan plan = make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}}, {"n"},
+                                            {{"in", {Image({0, 0, 200, 200}, {"Y"})}}}),
+                              {threads, 10, 0});
         try {
-            Executor(threads).run(std::move(frame), Canceller::cancel());
+            Executor(threads, 0).run(std::make_unique<FrameRun>(std::move(plan)), Canceller::cancel());
             FAIL() << "it ran to the end";
         } catch (const Failure& f) {
             EXPECT_EQ(f.error().kind, ErrorKind::kCancelled);
@@ -154,11 +224,10 @@ TEST(Execute, StopsSoonAfterItIsCancelled) {
 TEST(Execute, CancelledBeforeItBeginsItComputesNothing) {
     register_test_nodes<Canceller>();
     Canceller::tiles() = 0;
-    auto frame =
-        std::make_unique<FrameRun>(make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}},
-                                                           {"n"}, {{"in", {Image({0, 0, 20, 20}, {"Y"})}}}),
-                                             {2, 10, 0}));
-    EXPECT_THROW(Executor(2).run(std::move(frame), true), Failure);
+    Plan plan = make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}}, {"n"},
+                                        {{"in", {Image({0, 0, 20, 20}, {"Y"})}}}),
+                          {2, 10, 0});
+    EXPECT_THROW(Executor(2, 0).run(std::make_unique<FrameRun>(std::move(plan)), true), Failure);
     EXPECT_EQ(Canceller::tiles(), 0);
 }
 

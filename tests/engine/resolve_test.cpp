@@ -66,15 +66,6 @@ TEST(Resolve, ToldErrorsAreNotToldAgainByWhatFollows) {
     EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
 }
 
-TEST(Resolve, AChannelPassedOnIsTheSourcesOwn) {
-    Image fg({0, 0, 4, 4}, {"R", "G", "B", "A"});
-    const ResolvedFrame frame =
-        resolve_graph({{"comp", {{"type", "over"}, {"fg", "fg"}, {"bg", "in:ViewLayer."}}}}, {"comp"},
-                      {{"in", {passes()}}, {"fg", {fg}}});
-    EXPECT_EQ(std::ranges::count_if(frame.ops, [](const Op& op) { return op.operation != nullptr; }), 0)
-        << "there is no colour without a layer";
-}
-
 TEST(Resolve, OtherChannelsOfTheBackgroundKeepTheirType) {
     Image bg = noise({0, 0, 8, 8}, {"R", "G", "B", "id.X"}, 3);
     bg.channels[3].type = SampleType::kUint;
