@@ -99,7 +99,7 @@ void TileWorker::run_step(std::size_t i) {
 }
 
 void TileWorker::run_compute(std::size_t i, const Op& op, Outputs outputs) {
-    const bool point = op.operation->halo() == Halo{};
+    const bool point = op.operation->point();
     views_.clear();
     slots_.clear();
     std::size_t next = 0;
