@@ -24,7 +24,7 @@ Rect demand_of_link(const Op& op, int slot, const Rect& out) {
 }
 
 Rect view_of_link(const Op& op, int slot, const Rect& out) {
-    const bool here = op.operation->halo() == Halo{} && op.operation->demand(out, slot) == out;
+    const bool here = op.operation->point();
     return here ? out : demand_of_link(op, slot, out);
 }
 

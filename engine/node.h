@@ -19,7 +19,7 @@
 // A node is a struct of values with no base class.  What it defines says what it is:
 //
 //     compute(…)                        a point operation
-//     compute(…) and halo()             a stencil
+//     compute(…) and halo()             a stencil; with demand(out, slot) instead, one that moves the image
 //     State, Partial, map, fold, …      a whole-frame node
 //     read(Builder&) -> Stream          a source
 //     write(Builder&)                   a sink
@@ -106,6 +106,10 @@ public:
 
     virtual Halo halo() const { return {}; }
 
+    // Whether a pixel is computed from the same pixel of the inputs; their views then cover exactly what is
+    // computed, else demand() clipped to their data windows.
+    virtual bool point() const { return halo() == Halo{}; }
+
     // The region of an input that `out` is computed from; clipped to the input's data window by the caller.
     virtual Rect demand(const Rect& out, int /*slot*/) const { return grow(out, halo()); }
 
@@ -183,6 +187,9 @@ public:
     virtual Stream add_source(std::shared_ptr<const ImageSource> source) = 0;
 
     virtual void add_sink(SinkRequest request) = 0;
+
+    // The same samples, but 0 outside `window`; still of their file's type.
+    virtual ValueRef clip(ValueRef value, const Rect& window) = 0;
 
     // The type that a value has in its file; nothing where it is computed.
     virtual std::optional<SampleType> stored_type(ValueRef value) const = 0;

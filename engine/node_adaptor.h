@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/mixing.h"
 #include "engine/node_type.h"
 
 // From a plain struct to what the engine runs.  Everything about a node that can be known from its
@@ -45,6 +46,12 @@ concept PerChannelNode = requires(const T& t, const View& in, const MutView& out
     t.compute(in, out, s);
 };
 template <class T>
+concept MovingNode = requires(const T& t, const Rect& out, int slot) {
+    { t.demand(out, slot) } -> std::same_as<Rect>;
+};
+template <class T>
+concept MixedNode = std::derived_from<typename T::Params, Mixed>;
+template <class T>
 concept HasHalo = requires(const T& t) {
     { t.halo() } -> std::convertible_to<Halo>;
 };
@@ -59,7 +66,7 @@ constexpr NodeKind kind_of() {
         return NodeKind::kCompound;
     else if constexpr (WholeFrameNode<T>)
         return NodeKind::kWholeFrame;
-    else if constexpr (HasHalo<T>)
+    else if constexpr (HasHalo<T> || MovingNode<T>)
         return NodeKind::kStencil;
     else
         return NodeKind::kPoint;
@@ -76,8 +83,9 @@ public:
         else
             return {};
     }
+    bool point() const override { return !MovingNode<T> && Operation::point(); }
     Rect demand(const Rect& out, int slot) const override {
-        if constexpr (requires { node_->demand(out, slot); })
+        if constexpr (MovingNode<T>)
             return node_->demand(out, slot);
         else
             return Operation::demand(out, slot);
@@ -224,7 +232,20 @@ std::vector<Port> connect(Builder& builder, const Params& params, int slots) {
     for_each<Input>(params, [&](const Input& in, const char*, const Constraint& c) {
         ports[static_cast<std::size_t>(in.slot)] = {c.takes, c.leading, true, builder.input(in), in.place};
     });
+    if constexpr (std::derived_from<Params, Mixed>)
+        if (params.mask) ports.pop_back();  // the last declared; mix_back() uses it
     return ports;
+}
+
+// The leading input: what a MixedNode mixes its result with.
+template <class Params>
+Input leading_input(const Params& params) {
+    std::optional<Input> first, leading;
+    for_each<Input>(params, [&](const Input& in, const char*, const Constraint& c) {
+        if (!first) first = in;
+        if (c.leading) leading = in;
+    });
+    return leading ? *leading : *first;
 }
 
 }  // namespace detail
@@ -271,6 +292,14 @@ public:
     Value to_value() const override { return fields_to_value(Params::fields, params_); }
 
     Stream resolve(Builder& builder) const override {
+        if constexpr (MixedNode<T>)
+            return mix_back(builder, builder.input(detail::leading_input(params_)), make(builder), params_);
+        else
+            return make(builder);
+    }
+
+private:
+    Stream make(Builder& builder) const {
         const auto node = prepare(builder);
         if constexpr (SourceNode<T>)
             return node->read(builder);
@@ -282,7 +311,6 @@ public:
             return add_operation(builder, node, detail::connect(builder, params_, slots_));
     }
 
-private:
     std::shared_ptr<const T> prepare(Context& context) const {
         if constexpr (std::constructible_from<T, const Params&, Context&>)
             return std::make_shared<const T>(params_, context);

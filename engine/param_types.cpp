@@ -37,6 +37,12 @@ std::string words_text(const std::vector<TypeInfo::WordInfo>& words) {
     return out;
 }
 
+std::string tuple_text(const std::vector<TypeInfo>& items) {
+    std::string out = "a list of ";
+    for (std::size_t i = 0; i < items.size(); ++i) out += (i == 0 ? "" : " and ") + items[i].text();
+    return out;
+}
+
 }  // namespace
 
 TypeInfo TypeInfo::number(Range range) { return of_kind(Kind::kNumber, range); }
@@ -78,6 +84,12 @@ TypeInfo TypeInfo::object(std::vector<FieldInfo> fields) {
     return t;
 }
 
+TypeInfo TypeInfo::tuple(std::vector<TypeInfo> items) {
+    TypeInfo t = of_kind(Kind::kTuple);
+    t.items = std::move(items);
+    return t;
+}
+
 TypeInfo TypeInfo::any_of(std::vector<TypeInfo> choices) {
     TypeInfo t = of_kind(Kind::kAnyOf);
     t.items = std::move(choices);
@@ -99,6 +111,7 @@ std::string TypeInfo::text() const {
         case Kind::kList: return "a list, each item " + items[0].text();
         case Kind::kMap: return "an object, each value " + items[0].text();
         case Kind::kObject: return "an object";
+        case Kind::kTuple: return tuple_text(items);
         case Kind::kAnyOf: break;
     }
     std::string out;

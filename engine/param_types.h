@@ -128,6 +128,7 @@ struct TypeInfo {
         kList,
         kMap,
         kObject,
+        kTuple,
         kAnyOf
     };
     struct WordInfo {
@@ -141,7 +142,7 @@ struct TypeInfo {
     std::size_t count = 0;          // kNumbers
     Takes takes{};                  // kInput
     bool leading = false;           // kInput
-    std::vector<TypeInfo> items;    // kList, kMap: one; kAnyOf: the choices
+    std::vector<TypeInfo> items;    // kList, kMap: one; kTuple: each; kAnyOf: the choices
     std::vector<FieldInfo> fields;  // kObject
 
     static TypeInfo number(Range range);
@@ -156,6 +157,7 @@ struct TypeInfo {
     static TypeInfo list(TypeInfo item);
     static TypeInfo map(TypeInfo item);
     static TypeInfo object(std::vector<FieldInfo> fields);
+    static TypeInfo tuple(std::vector<TypeInfo> items);
     static TypeInfo any_of(std::vector<TypeInfo> choices);
 
     std::string text() const;        // "a number", "one of 'disk', 'square' and 'diamond'"

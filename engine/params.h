@@ -299,6 +299,27 @@ struct Codec<std::vector<T>> {
     }
 };
 
+// A list of two things.
+template <class A, class B>
+struct Codec<std::pair<A, B>> {
+    using T = std::pair<A, B>;
+    static bool accepts(const Value& v) {
+        return v.is(Value::Kind::kArray) && v.items.size() == 2 && Codec<A>::accepts(v.items[0]) &&
+               Codec<B>::accepts(v.items[1]);
+    }
+    static TypeInfo type(const Constraint& c) {
+        return TypeInfo::tuple({Codec<A>::type(c), Codec<B>::type(c)});
+    }
+    static Value to_value(const T& pair) {
+        return detail::make_array({Codec<A>::to_value(pair.first), Codec<B>::to_value(pair.second)});
+    }
+    static void parse(const Value& v, std::string_view name, const Constraint& c, T& out, ParamReader& r) {
+        if (!accepts(v)) return detail::wrong_kind(v, name, type(c), r);
+        Codec<A>::parse(v.items[0], name, c, out.first, r);
+        Codec<B>::parse(v.items[1], name, c, out.second, r);
+    }
+};
+
 // An object with keys of the user's own: name → T.
 template <class T>
 struct Codec<Map<T>> {

@@ -6,6 +6,7 @@
 #include "engine/io/color.h"
 
 #include <algorithm>
+#include <cstring>
 #include <fmt/format.h>
 #include <map>
 
@@ -15,6 +16,16 @@ namespace {
 
 // Thrown to leave a node whose input already failed and was reported.
 struct AlreadyReported {};
+
+class Copy final : public Operation {
+public:
+    void compute(const Inputs& in, Outputs out, Scratch&) const override {
+        const View& from = in[Input{{}, {}, {}, 0}][0];
+        const auto bytes = static_cast<std::size_t>(out[0].rect.width()) * sizeof(float);
+        for (int y = out[0].rect.y0; y < out[0].rect.y1; ++y) std::memcpy(out[0].row(y), from.row(y), bytes);
+    }
+    double cost() const override { return 1; }
+};
 
 class Resolver {
 public:
@@ -121,6 +132,7 @@ public:
         stream.display = header.display_window;
         stream.window = header.data_window;
         stream.metadata = std::make_shared<Metadata>(header.metadata);
+        stream.file = header.file;
         Op op;
         for (std::size_t g = 0; g < header.groups.size(); ++g)
             for (std::size_t c = 0; c < header.groups[g].channels.size(); ++c) {
@@ -138,6 +150,16 @@ public:
 
     void add_sink(SinkRequest request) override {
         resolver_.result_.sinks.push_back({title(), node_.place, std::move(request)});
+    }
+
+    ValueRef clip(ValueRef value, const Rect& window) override {
+        const ValueInfo info = resolver_.result_.info(value);
+        if (window.contains(info.window)) return value;
+        Op op;
+        op.operation = std::make_shared<const Copy>();
+        op.links.push_back({window, {value}});
+        op.outputs.push_back({intersect(window, info.window), info.stored});
+        return add_op(std::move(op)).front();
     }
 
     std::optional<SampleType> stored_type(ValueRef value) const override {

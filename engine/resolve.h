@@ -13,10 +13,10 @@
 
 namespace keyline {
 
-// One output of an operation: where it is not 0, and how a source stores it.
+// One output of an operation: where it is not 0, and how a file stores it.
 struct ValueInfo {
     Rect window;
-    std::optional<SampleType> stored;  // nothing: computed
+    std::optional<SampleType> stored;  // the type of the file that the samples come from; nothing: computed
 };
 
 // An operation of one frame, or a source (operation null).

@@ -119,6 +119,7 @@ private:
             case TypeInfo::Kind::kNumbers: return numbers(type.count, type.range);
             case TypeInfo::Kind::kBool: return plain("boolean");
             case TypeInfo::Kind::kList: return collection("array", "items", type.items[0]);
+            case TypeInfo::Kind::kTuple: return collection("array", "items", TypeInfo::any_of(type.items));
             case TypeInfo::Kind::kMap: return collection("object", "additionalProperties", type.items[0]);
             case TypeInfo::Kind::kObject: return object(type.fields);
             case TypeInfo::Kind::kInput:

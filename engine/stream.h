@@ -5,6 +5,7 @@
 #include "engine/geometry.h"
 #include "engine/metadata.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -30,6 +31,7 @@ struct Stream {
     Rect display, window;
     std::vector<StreamChannel> channels;
     std::shared_ptr<const Metadata> metadata = std::make_shared<Metadata>();
+    std::filesystem::path file;  // that the metadata came from, for names in it that are relative to it
 
     std::vector<std::string> names() const;
     const StreamChannel* find(std::string_view name) const;

@@ -161,7 +161,7 @@ private:
             const ValueRef next = open.back();
             open.pop_back();
             if (is_stored(next, sweep) || is_reduction(next.op) || !seen.insert(next.op).second) continue;
-            if (op(next.op).operation->halo() != Halo{}) return true;
+            if (!op(next.op).operation->point()) return true;
             for (const Link& link : op(next.op).links)
                 open.insert(open.end(), link.values.begin(), link.values.end());
         }

@@ -4,6 +4,8 @@
 
 #include "engine/simd/elementary-inl.h"
 
+#include <cmath>
+
 namespace keyline::elementary {
 
 namespace {
@@ -22,6 +24,27 @@ double log(double x) { return hn::GetLane(body::log(kOne, hn::Set(kOne, x))); }
 double pow(double x, double y) {
     if (y == 0 || x == 1) return 1;
     return exp(y * log(x));
+}
+
+SinCos sin_cos_degrees(double degrees) {
+    if (!std::isfinite(degrees)) return {degrees - degrees, degrees - degrees};
+    // fmod and nearbyint are exact, so what is left of the angle is too.
+    const double turn = std::fmod(degrees, 360.0);
+    const double quarters = std::nearbyint(turn / 90.0);
+    const double x = (turn - 90.0 * quarters) * (0x1.921fb54442d18p+1 / 180.0);
+    // The Taylor series, from their small ends; |x| ≤ π/4.
+    double sine = 0, cosine = 0;
+    for (int k = 18; k > 0; k -= 2) {
+        cosine = (1 - cosine) * x * x / (k * (k - 1.0));
+        sine = (1 - sine) * x * x / (k * (k + 1.0));
+    }
+    const double s = x * (1 - sine), c = 1 - cosine;
+    switch (static_cast<int>(quarters) & 3) {
+        case 0: return {s, c};
+        case 1: return {c, -s};
+        case 2: return {-s, -c};
+        default: return {-c, s};
+    }
 }
 
 }  // namespace keyline::elementary

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// exp, log and pow that give the same bits on every machine.  The C library's do not: glibc picks another
-// body where the processor has fused multiply-adds.  These are made of + − × ÷ alone; tables (Gaussian
-// weights, tone curves) are built with them, and the kernels use the same body lane by lane.
+// exp, log, pow, sine and cosine that give the same bits on every machine.  The C library's do not: glibc
+// picks another body where the processor has fused multiply-adds.  These are made of + − × ÷ alone; tables
+// (Gaussian weights, tone curves) are built with them, and the kernels use the same body lane by lane.
 
 namespace keyline::elementary {
 
@@ -18,5 +18,12 @@ double log(double x);
 // x^y for x ≥ 0, to 1e-15 × (1 + |y log x|) of its value.  As in IEEE 754: x^0 is 1 and 1^y is 1, even for
 // NaN; 0^y is 0 for y > 0 and +∞ for y < 0.  NaN for x < 0, whatever y is.
 double pow(double x, double y);
+
+struct SinCos {
+    double sin, cos;
+};
+
+// Of an angle in degrees, to 1e-15; exact where the angle is a multiple of 90.  NaN unless it is finite.
+SinCos sin_cos_degrees(double degrees);
 
 }  // namespace keyline::elementary

@@ -96,5 +96,31 @@ TEST(Pow, HasTheSpecialCasesOfIeee) {
     EXPECT_TRUE(std::isnan(elementary::pow(2, kNan)));
 }
 
+TEST(SinCos, IsAccurate) {
+    std::mt19937_64 random(3);
+    double worst = 0;
+    for (int i = 0; i < 100'000; ++i) {
+        const double degrees = std::uniform_real_distribution<double>(-1000, 1000)(random);
+        const long double radians =
+            std::fmod(static_cast<long double>(degrees), 360.0L) * std::acos(-1.0L) / 180;
+        const auto [sine, cosine] = elementary::sin_cos_degrees(degrees);
+        worst = std::max({worst, std::fabs(sine - static_cast<double>(std::sin(radians))),
+                          std::fabs(cosine - static_cast<double>(std::cos(radians)))});
+    }
+    EXPECT_LT(worst, 1e-15);
+}
+
+TEST(SinCos, IsExactAtQuarterTurns) {
+    for (int turn = -8; turn <= 8; turn += 4) {
+        const auto at = [&](int quarter) { return elementary::sin_cos_degrees(90.0 * (turn + quarter)); };
+        EXPECT_TRUE(at(0).sin == 0 && at(0).cos == 1);
+        EXPECT_TRUE(at(1).sin == 1 && at(1).cos == 0);
+        EXPECT_TRUE(at(2).sin == 0 && at(2).cos == -1);
+        EXPECT_TRUE(at(3).sin == -1 && at(3).cos == 0);
+    }
+    EXPECT_TRUE(std::isnan(elementary::sin_cos_degrees(kInfinity).sin));
+    EXPECT_TRUE(std::isnan(elementary::sin_cos_degrees(kNan).cos));
+}
+
 }  // namespace
 }  // namespace keyline

@@ -14,9 +14,10 @@ namespace {
 
 using Kind = TypeInfo::Kind;
 
-// Words that no declaration lists, for the nodes that need one.
+// Values that no declaration lists, for the nodes that need one.
 std::optional<Json> known_word(const std::string& type, const std::string& field) {
     if (type == "colorspace" && field == "to") return Json("ACEScg");
+    if (type == "laplacian" && field == "neighbours") return Json(8);
     return {};
 }
 
@@ -111,6 +112,12 @@ std::optional<Json> Draw::value(const TypeInfo& type, const NameInput& input) {
         case Kind::kNumbers: {
             std::vector<Json> items;
             for (std::size_t i = 0; i < type.count; ++i) items.emplace_back(number(type.range));
+            return Json::array(items);
+        }
+        case Kind::kTuple: {
+            std::vector<Json> items;
+            for (const TypeInfo& item : type.items)
+                if (auto v = value(item, input)) items.push_back(std::move(*v));
             return Json::array(items);
         }
         case Kind::kInput: return Json(input(type));

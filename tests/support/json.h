@@ -26,7 +26,7 @@ public:
     requires(std::integral<N> || std::floating_point<N>) && (!std::same_as<N, bool>)Json(N number)
         : Json(number_from(static_cast<double>(number))) {}  // NOLINT(google-explicit-constructor)
 
-    static Json array(std::vector<Json> items);
+    static Json array(std::vector<Json> items = {});
     static Json verbatim(std::string json) { return {Kind::kText, std::move(json)}; }
 
     // Replaces an object's member, or adds it at the end.

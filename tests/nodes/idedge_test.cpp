@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cryptomatte.h"
+#include "tests/nodes/plate.h"
+
+#include <bit>
+
+namespace keyline::testing {
+namespace {
+
+using Images = std::map<std::string, Image>;
+
+Image edges(const Image& drawing) {
+    Image out = drawing;
+    out.channels[0].name = "edge";
+    return out;
+}
+
+const Image& two_objects() {
+    static const Image ids = ascii({"......", "..11..", "..12..", "......"});
+    return ids;
+}
+
+TEST(IdEdge, DrawsBothSides) {
+    EXPECT_IMAGE(run("idedge", {}, two_objects()), edges(ascii({"..11..", ".1111.", ".1111.", "..11.."})));
+}
+
+TEST(IdEdge, BelongsToTheLargerIdWithoutDepth) {
+    EXPECT_IMAGE(run("idedge", {{"side", "inner"}}, two_objects()),
+                 edges(ascii({"......", "..11..", "..11..", "......"})));
+    EXPECT_IMAGE(run("idedge", {{"side", "outer"}}, two_objects()),
+                 edges(ascii({"..11..", ".1.11.", ".11.1.", "..11.."})));
+}
+
+TEST(IdEdge, BelongsToTheNearerObject) {
+    const Image ids = ascii({"1122"}), depth = ascii({"5533"}), behind = ascii({"1144"});
+    EXPECT_IMAGE(run("idedge", {{"side", "inner"}}, Images{{"in", ids}, {"depth", depth}}),
+                 edges(ascii({"..1."})));
+    EXPECT_IMAGE(run("idedge", {{"side", "outer"}}, Images{{"in", ids}, {"depth", depth}}),
+                 edges(ascii({".1.."})));
+    EXPECT_IMAGE(run("idedge", {{"side", "inner"}}, Images{{"in", ids}, {"depth", behind}}),
+                 edges(ascii({".1.."})));
+}
+
+TEST(IdEdge, TheBorderOfTheImageIsNoEdge) {
+    EXPECT_IMAGE(run("idedge", {}, ascii({"11", "11"})), edges(ascii({"..", ".."})));
+    EXPECT_IMAGE(run("idedge", {}, ascii({"1"})), edges(ascii({"."})));
+}
+
+// A row of pixels that a covers from the left up to `edge`, and b from there on.
+Image antialiased(double edge, int width) {
+    Image image({0, 0, width, 1}, {"r", "g", "b", "a"});
+    const float a = std::bit_cast<float>(cryptomatte_id("a")), b = std::bit_cast<float>(cryptomatte_id("b"));
+    for (int x = 0; x < width; ++x) {
+        const auto covered = static_cast<float>(std::clamp(edge - x, 0.0, 1.0));
+        const bool a_first = covered > 0.5F;
+        image.at("r", x, 0) = a_first ? a : b;
+        image.at("g", x, 0) = a_first ? covered : 1 - covered;
+        image.at("b", x, 0) = a_first ? b : a;
+        image.at("a", x, 0) = a_first ? 1 - covered : covered;
+    }
+    return image;
+}
+
+// The ranks say where in the pixel the edge is: the line lies exactly there, and keeps its width.
+TEST(IdEdge, CoveragePlacesTheEdgeInsideThePixel) {
+    for (const double edge : {4.0, 4.2, 4.45, 4.75, 5.0}) {
+        SCOPED_TRACE(edge);
+        const Image in = antialiased(edge, 9);
+        const Image near_a = Image({0, 0, 9, 1}, {"Z"}).fill("Z", [](int x, int) { return x; });
+        for (const std::string side : {"both", "inner", "outer"}) {
+            const double from = side == "outer" ? edge : edge - 1, to = side == "inner" ? edge : edge + 1;
+            const Image out = run("idedge", {{"side", side}}, Images{{"in", in}, {"depth", near_a}});
+            for (int x = 0; x < 9; ++x)
+                ASSERT_NEAR(out.at("edge", x, 0),
+                            std::max(0.0, std::min(to, x + 1.0) - std::max(from, double(x))), 1e-5)
+                    << side << ' ' << x;
+        }
+    }
+}
+
+TEST(IdEdge, DoesNotDependOnTheTile) {
+    const Json nodes{{"r", {{"type", "read"}, {"file", KEYLINE_PLATE}}},
+                     {"e",
+                      {{"type", "idedge"},
+                       {"in", "r"},
+                       {"layer", "CryptoObject"},
+                       {"side", "inner"},
+                       {"depth", "r:Depth"}}}};
+    const Image whole = run_graph(nodes, "e", Images{}, {1, 0});
+    EXPECT_IMAGE(run_graph(nodes, "e", Images{}, {2, 37}), whole);
+    double sum = 0;
+    for (const float s : whole.channel("edge").samples) {
+        ASSERT_TRUE(s >= 0 && s <= 1.000001F) << s;
+        sum += double{s};
+    }
+    EXPECT_GT(sum, 2000);   // the outlines of a street
+    EXPECT_LT(sum, 23000);  // … and not its surfaces
+}
+
+}  // namespace
+}  // namespace keyline::testing
