@@ -38,6 +38,7 @@ struct Takes {
     enum class Kind {
         kAny,     // every channel, in the stream's order
         kColour,  // R G B, and A where there is one
+        kRgb,     // R G B; an A is not looked at, and so not decoded
         kMatte,   // the only channel, or else A
         kNamed,   // exactly `names`
     };
@@ -48,6 +49,7 @@ struct Takes {
 
 constexpr Takes any_channels() { return {}; }
 constexpr Takes colour() { return {Takes::Kind::kColour, {}, nullptr}; }
+constexpr Takes rgb() { return {Takes::Kind::kRgb, {}, nullptr}; }
 constexpr Takes matte(const char* preferred = nullptr) { return {Takes::Kind::kMatte, {}, preferred}; }
 template <class... Names>
 constexpr Takes named(Names... names) {
