@@ -31,12 +31,14 @@ Image layered_image(Draw& draw) {
     return image;
 }
 
-std::vector<const NodeType*> computing_types() {
-    std::vector<const NodeType*> out;
-    for (const auto& [name, type] : registry().types())
-        if (!has_files(type) && type.kind != NodeKind::kSource && type.kind != NodeKind::kSink)
-            out.push_back(&type);
-    return out;
+// Keyline's own: other tests of this program add nodes that throw.
+const std::vector<NodeType>& computing_types() {
+    static const std::vector<NodeType> types = [] {
+        std::vector<NodeType> all = built_in_nodes();
+        std::erase_if(all, has_files);
+        return all;
+    }();
+    return types;
 }
 
 bool resolves(const RandomGraph& graph) {
@@ -66,14 +68,13 @@ void add_node(RandomGraph& graph, const NodeType& type, Draw& draw) {
 }
 
 RandomGraph random_graph(unsigned seed) {
-    static const std::vector<const NodeType*> types = computing_types();
     Draw draw(seed);
     RandomGraph graph;
     for (const char* id : {"a", "b"}) {
         graph.ids.emplace_back(id);
         for (int frame = 0; frame < 3; ++frame) graph.inputs[id].push_back(layered_image(draw));
     }
-    for (int n = draw.whole(4, 9); n > 0; --n) add_node(graph, *draw.of(types), draw);
+    for (int n = draw.whole(4, 9); n > 0; --n) add_node(graph, draw.of(computing_types()), draw);
     graph.outputs = {graph.ids.back(), draw.of(graph.ids), draw.of(graph.ids)};
     return graph;
 }
@@ -114,7 +115,7 @@ TEST_P(RandomGraphs, GiveTheSameBytesInLittleMemory) {
     EXPECT_GT(plans, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomGraphs, ::testing::Range(0U, 16U));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomGraphs, ::testing::Range(0U, 24U));
 
 TEST(RandomGraphs, OfOnePixelTilesTheSame) {
     const Image in = noise({-3, -2, 21, 17}, {"R", "G", "B", "A"}, 5);

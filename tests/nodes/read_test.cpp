@@ -92,7 +92,7 @@ TEST_F(Read, TakesAnotherFrame) {
     EXPECT_EQ(read("a.####.exr", {{"frame", "+1"}}, 4).at("R", 0, 0), 5);
     EXPECT_EQ(read("a.####.exr", {{"frame", 5}}, 3).at("R", 0, 0), 5);
     EXPECT_THAT(rendered("a.####.exr", {{"frame", "next"}}, 4).errors,
-                ElementsAre(HasSubstr("'frame' is \"next\"")));
+                ElementsAre(HasSubstr("'frame' is 'next'")));
 }
 
 TEST_F(Read, AMissingFrameFailsUnlessSaidOtherwise) {

@@ -88,7 +88,7 @@ TEST_F(Write, ChannelsAndLayersMayBeChosen) {
     rewritten({{"channels", {"key", "depth.Z", "A"}}});
     EXPECT_THAT(names(result()), ElementsAre("A", "depth.Z", "key.B", "key.G", "key.R"));
     EXPECT_THAT(rewritten({{"channels", Json::array({"keys"})}}).errors,
-                ElementsAre(AllOf(HasSubstr("\"keys\""), HasSubstr("test.json"))));
+                ElementsAre(AllOf(HasSubstr("'keys'"), HasSubstr("test.json"))));
 }
 
 TEST_F(Write, FurtherInputsBecomeLayers) {
