@@ -49,13 +49,14 @@ ProgressMode parse_progress(const std::string& word) {
 
 void Progress::start(std::size_t frames) {
     frames_ = frames;
-    start_ = frame_start_ = Clock::now();
+    start_ = Clock::now();
     if (mode_ == ProgressMode::kJson)
         print_message(
             JsonWriter().begin_object().field("event", "start").field("frames", frames).end_object().text());
 }
 
 void Progress::frame_started(int frame, const Plan& plan) {
+    at_work_[frame] = Clock::now();
     if (mode_ == ProgressMode::kBar) draw_bar(fmt::format("frame {}", frame));
     if (mode_ != ProgressMode::kJson) return;
     JsonWriter json;
@@ -65,8 +66,9 @@ void Progress::frame_started(int frame, const Plan& plan) {
 }
 
 void Progress::frame_ended(int frame, FrameOutcome outcome) {
-    const double seconds = seconds_since(frame_start_);
-    frame_start_ = Clock::now();
+    const auto begun = at_work_.find(frame);
+    const double seconds = begun == at_work_.end() ? 0 : seconds_since(begun->second);
+    at_work_.erase(frame);
     ++ended_;
     if (mode_ == ProgressMode::kBar) draw_bar(fmt::format("frame {} {}", frame, outcome_name(outcome)));
     if (mode_ == ProgressMode::kLines)

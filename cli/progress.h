@@ -5,6 +5,7 @@
 #include "engine/render.h"
 
 #include <chrono>
+#include <map>
 #include <string>
 
 namespace keyline::cli {
@@ -42,7 +43,8 @@ private:
 
     ProgressMode mode_;
     std::size_t frames_ = 0, ended_ = 0;
-    Clock::time_point start_, frame_start_;
+    Clock::time_point start_;
+    std::map<int, Clock::time_point> at_work_;  // frames, and when each was begun; they overlap
     bool bar_drawn_ = false;
 };
 

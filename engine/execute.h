@@ -29,7 +29,7 @@ public:
 class Executor {
 public:
     // `memory` is the most that frames at work at once may be estimated to use; 0: no limit.
-    Executor(int threads, std::size_t memory);
+    explicit Executor(int threads, std::size_t memory = 0);
 
     // Runs all frames of the supply.  Throws Failure (kCancelled) once `cancel` is true, which is looked at
     // between jobs; frames under way then leave nothing.

@@ -58,11 +58,10 @@ std::vector<ValueRef> take_channels(const Stream& stream, const Takes& takes) {
             taken.resize(names.size());
             std::iota(taken.begin(), taken.end(), std::size_t{0});
             break;
-        case Takes::Kind::kColour:
-        case Takes::Kind::kRgb: {
+        case Takes::Kind::kColour: {
             const ColourChannels c = find_colour(names);
             taken = {c.r, c.g, c.b};
-            if (c.a && takes.kind == Takes::Kind::kColour) taken.push_back(*c.a);
+            if (c.a && takes.alpha) taken.push_back(*c.a);
             break;
         }
         case Takes::Kind::kMatte:

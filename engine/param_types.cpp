@@ -20,8 +20,7 @@ std::string takes_text(const Takes& takes) {
     std::vector<std::string> names;
     switch (takes.kind) {
         case Takes::Kind::kAny: return "an input";
-        case Takes::Kind::kColour:
-        case Takes::Kind::kRgb: return "an input with R G B";
+        case Takes::Kind::kColour: return "an input with R G B";
         case Takes::Kind::kMatte: return "an input with one channel, or an A";
         case Takes::Kind::kNamed: break;
     }

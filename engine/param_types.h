@@ -37,19 +37,19 @@ struct Color {
 struct Takes {
     enum class Kind {
         kAny,     // every channel, in the stream's order
-        kColour,  // R G B, and A where there is one
-        kRgb,     // R G B; an A is not looked at, and so not decoded
+        kColour,  // R G B, and A where there is one and it is wanted
         kMatte,   // the only channel, or else A
         kNamed,   // exactly `names`
     };
     Kind kind = Kind::kAny;
     std::array<const char*, 8> names{};
     const char* preferred = nullptr;  // kMatte: this channel, where the stream has it
+    bool alpha = true;                // kColour: the A too
 };
 
 constexpr Takes any_channels() { return {}; }
 constexpr Takes colour() { return {Takes::Kind::kColour, {}, nullptr}; }
-constexpr Takes rgb() { return {Takes::Kind::kRgb, {}, nullptr}; }
+constexpr Takes colour_without_alpha() { return {Takes::Kind::kColour, {}, nullptr, false}; }
 constexpr Takes matte(const char* preferred = nullptr) { return {Takes::Kind::kMatte, {}, preferred}; }
 template <class... Names>
 constexpr Takes named(Names... names) {

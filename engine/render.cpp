@@ -15,12 +15,12 @@ namespace keyline {
 namespace {
 
 ResolveOptions resolve_options(const Graph& graph, const RenderOptions& options, bool every_node) {
-    return {options.ocio.empty() ? graph.ocio() : options.ocio, every_node};
+    return {options.ocio.empty() ? graph.ocio() : options.ocio, every_node, false, true};
 }
 
-std::optional<ResolvedFrame> resolve_checked(const Graph& graph, int frame, const RenderOptions& options,
-                                             bool every_node, Diagnostics& diagnostics) {
-    auto resolved = resolve(graph, frame, resolve_options(graph, options, every_node), diagnostics);
+std::optional<ResolvedFrame> resolve_checked(const Graph& graph, int frame, const ResolveOptions& options,
+                                             Diagnostics& diagnostics) {
+    auto resolved = resolve(graph, frame, options, diagnostics);
     if (!resolved) return std::nullopt;
     check_outputs(*resolved, diagnostics);
     if (!diagnostics.ok()) return std::nullopt;
@@ -65,14 +65,7 @@ public:
         for (const Error& w : run.warnings()) observer_.warning(w);
         const int frame = run.plan().frame.frame;
         if (!run.error()) return count(frame, FrameOutcome::kDone);
-        try {
-            std::rethrow_exception(run.error());
-        } catch (const Failure& f) {
-            return frame_failed(frame, {f.error()});
-        } catch (const std::exception& e) {
-            return frame_failed(frame,
-                                {{ErrorKind::kInternal, {}, fmt::format("frame {}", frame), e.what(), {}}});
-        }
+        return frame_failed(frame, {error_of(frame, run.error())});
     }
 
 private:
@@ -94,8 +87,10 @@ private:
     std::unique_ptr<FrameRun> begin(int frame) {
         Diagnostics diagnostics;
         try {
-            auto resolved = resolve_checked(graph_, frame, options_, false, diagnostics);
-            if (frame != options_.frames.front())
+            ResolveOptions resolving = resolve_options(graph_, options_, false);
+            resolving.known_sound = frame != options_.frames.front();
+            auto resolved = resolve_checked(graph_, frame, resolving, diagnostics);
+            if (resolving.known_sound)
                 for (const Error& w : diagnostics.warnings()) observer_.warning(w);
             if (!resolved) return frame_failed(frame, diagnostics.errors()), nullptr;
             if (options_.skip_existing && skip_finished(*resolved))
@@ -106,19 +101,34 @@ private:
                 options_.recorder);
             observer_.frame_started(frame, run->plan());
             return run;
-        } catch (const Failure& f) {
-            frame_failed(frame, {f.error()});
-        } catch (const std::exception& e) {
-            frame_failed(frame, {{ErrorKind::kInternal, {}, fmt::format("frame {}", frame), e.what(), {}}});
+        } catch (...) {
+            frame_failed(frame, {error_of(frame, std::current_exception())});
         }
         return nullptr;
+    }
+
+    static Error error_of(int frame, const std::exception_ptr& thrown) {
+        const std::string who = fmt::format("frame {}", frame);
+        try {
+            std::rethrow_exception(thrown);
+        } catch (const Failure& f) {
+            return f.error();
+        } catch (const std::bad_alloc&) {
+            return {ErrorKind::kFailed, {}, who, "out of memory", "a smaller --memory makes it need less"};
+        } catch (const std::exception& e) {
+            return {ErrorKind::kInternal, {}, who, e.what(), {}};
+        }
     }
 
     // All three return whether to go on.
     bool frame_failed(int frame, const std::vector<Error>& errors) {
         for (const Error& e : errors) observer_.error(e);
-        if (result_.status == 0)
+        // Frames overlap: a later one may be the first to fail.
+        const auto position = std::ranges::find(options_.frames, frame) - options_.frames.begin();
+        if (result_.status == 0 || position < first_failed_) {
             result_.status = exit_status(any_of_graph(errors) ? ErrorKind::kGraph : errors.front().kind);
+            first_failed_ = position;
+        }
         return count(frame, FrameOutcome::kFailed);
     }
 
@@ -144,20 +154,22 @@ private:
     const RenderOptions& options_;
     RenderObserver& observer_;
     std::size_t next_ = 0;
+    std::ptrdiff_t first_failed_ = 0;  // of options_.frames, where status is not 0
     RenderResult result_;
 };
 
 }  // namespace
 
 void check(const Graph& graph, int frame, const RenderOptions& options, Diagnostics& diagnostics) {
-    if (const auto resolved = resolve_checked(graph, frame, options, true, diagnostics))
+    if (const auto resolved =
+            resolve_checked(graph, frame, resolve_options(graph, options, true), diagnostics))
         for (const Sink& sink : resolved->sinks) check_format(sink, diagnostics);
     diagnostics.sort_by_place();
 }
 
 std::optional<Plan> plan_frame(const Graph& graph, int frame, const RenderOptions& options,
                                Diagnostics& diagnostics) {
-    auto resolved = resolve_checked(graph, frame, options, false, diagnostics);
+    auto resolved = resolve_checked(graph, frame, resolve_options(graph, options, false), diagnostics);
     if (!resolved) return std::nullopt;
     try {
         return make_plan(std::move(*resolved), {options.threads, options.tile, options.memory});

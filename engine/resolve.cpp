@@ -204,6 +204,7 @@ std::optional<Stream> Resolver::resolve_node(int node, int frame) {
         Error e = f.error();
         if (e.place.file.empty())
             e.place = e.kind == ErrorKind::kInput ? builder.file_place() : builder.place();
+        if (options_.known_sound && e.kind == ErrorKind::kGraph) e.kind = ErrorKind::kInput;
         if (e.node.empty()) e.node = builder.title();
         diagnostics_.error(std::move(e));
     } catch (const AlreadyReported&) {

@@ -50,6 +50,7 @@ struct ResolvedFrame {
 struct ResolveOptions {
     std::filesystem::path ocio;        // the config; empty: the built-in one
     bool every_node = false;           // resolve those too that nothing written uses
+    bool known_sound = false;          // for another frame: a layer that is missing now is its file's fault
     bool leave_out_identities = true;  // nodes that say they change nothing
 };
 

@@ -27,7 +27,7 @@ struct YColor {
         double gamma = 1;
 
         static constexpr auto fields = declare(
-            input(&Params::in, "in", "The colour.", rgb()),
+            input(&Params::in, "in", "The colour.", colour_without_alpha()),
             field(&Params::weights, "weights", "What R, G and B count."),
             field(&Params::clamp, "clamp", "Limit Y to 0 … 1, before gamma."),
             field(&Params::gamma, "gamma", "Y is raised to 1/gamma; its sign is kept.", between(0.01, 100)));

@@ -50,13 +50,13 @@ TEST_F(Progress, NoneTellsWarningsOnly) {
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(
         run.err,
-        "graph.json:3:5: warning: node 'spare' (gaussian): nothing that is written uses it; it is not run\n");
+        "graph.json:4:5: warning: node 'spare' (gaussian): nothing that is written uses it; it is not run\n");
 }
 
 TEST_F(Progress, TheBarIsDrawnAnewAndTakenAway) {
     graph(kNodes);
     const Outcome run = render("bar");
-    EXPECT_THAT(run.err, HasSubstr("\r\x1b[K[=====     "));
+    EXPECT_THAT(run.err, HasSubstr("\r\x1b[K[==========     "));
     EXPECT_THAT(run.err, HasSubstr("3 of 3, frame 3 done"));
     EXPECT_THAT(run.err, HasSubstr("\r\x1b[K3 of 3 frames done"));
 }

@@ -52,10 +52,10 @@ TEST_F(Report, PlanTellsSweepsWithoutWriting) {
     sequence_graph();
     const Outcome run = keyline({"plan", "graph.json", "--tile", "64", "--threads", "3"});
     EXPECT_EQ(run.status, 0) << run.err;
-    for (const char* text :
-         {"frame 7: 2 sweeps on 3 threads", "input in.0007.exr, node 'r' (read)", "3 of 22 channels",
-          "480 × 270 at (0, 0), 40 tiles of 64 × 64", "gather   node 'edges' (hysteresis)",
-          "apply    node 'edges' (hysteresis)", "write    out.0007.exr"})
+    for (const char* text : {"frame 7: 2 sweeps on 3 threads", "input in.0007.exr, node 'r' (read)",
+                             "3 of 22 channels: ViewLayer.Combined: R G B half",
+                             "480 × 270 at (0, 0), 40 tiles of 64 × 64", "gather   node 'edges' (hysteresis)",
+                             "apply    node 'edges' (hysteresis)", "write    out.0007.exr"})
         EXPECT_THAT(run.out, HasSubstr(text));
     EXPECT_FALSE(exists("out.0007.exr"));
 }

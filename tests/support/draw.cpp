@@ -50,7 +50,6 @@ std::vector<std::string> Draw::channels(const Takes& takes) {
         case Takes::Kind::kAny:
             return one_in(2) ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B", "A"};
         case Takes::Kind::kColour:
-        case Takes::Kind::kRgb:
             names = {"R", "G", "B"};
             if (!one_in(3)) names.emplace_back("A");
             break;

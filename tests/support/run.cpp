@@ -202,7 +202,7 @@ ResolvedFrame resolve_graph(const Json& nodes, const std::vector<std::string>& i
 
 std::vector<Image> render(Plan plan) {
     const int threads = plan.threads;
-    Executor(threads, 0).run(std::make_unique<FrameRun>(std::move(plan)), false);
+    Executor(threads).run(std::make_unique<FrameRun>(std::move(plan)), false);
     return shelf().written;
 }
 
