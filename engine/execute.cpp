@@ -93,15 +93,11 @@ private:
         dispatch();
     }
 
-    // Not while the supply is busy with the next frame: its calls come one at a time.
+    // The oldest first, and not while the supply is busy with the next frame: its calls come one at a time.
     void end_frames() {
-        for (auto it = frames_.begin(); it != frames_.end() && !opening_;) {
-            if (!(*it)->done()) {
-                ++it;
-                continue;
-            }
-            if (!(*it)->cancelled() && !supply_.ended(**it)) give_up();
-            it = frames_.erase(it);
+        while (!opening_ && !frames_.empty() && frames_.front()->done()) {
+            if (!frames_.front()->cancelled() && !supply_.ended(*frames_.front())) give_up();
+            frames_.pop_front();
         }
     }
 

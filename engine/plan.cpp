@@ -24,8 +24,12 @@ double halo_overhead(const Plan& plan, const Sweep& sweep) {
     for (std::size_t i = 0; i < regions.size(); ++i) {
         const Op& op = plan.frame.ops[static_cast<std::size_t>(sweep.steps[i].op)];
         const double cost = op.operation ? op.operation->cost() : 1;
-        spent += cost * static_cast<double>(regions[i].area());
-        wanted += cost * static_cast<double>(std::min(regions[i].area(), middle.area()));
+        // A stencil may work on all that it reads: a blur in x and y blurs the rows above and below in x.
+        Rect worked = regions[i];
+        if (sweep.steps[i].kind == Step::Kind::kCompute)
+            worked = intersect(grow(worked, op.operation->halo()), op.outputs.front().window);
+        spent += cost * static_cast<double>(worked.area());
+        wanted += cost * static_cast<double>(std::min(worked.area(), middle.area()));
     }
     return spent / wanted;
 }

@@ -27,7 +27,7 @@ struct RenderOptions {
 enum class FrameOutcome { kDone, kSkipped, kFailed };
 
 // Hears of a render as it goes.  Called by one thread at a time, any thread.  Two frames may be at work at
-// once, and a younger one may end first.
+// once; they end in order.
 class RenderObserver {
 public:
     virtual ~RenderObserver() = default;

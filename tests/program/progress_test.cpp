@@ -64,14 +64,24 @@ TEST_F(Progress, TheBarIsDrawnAnewAndTakenAway) {
 TEST_F(Progress, JsonIsAnObjectALine) {
     graph(kNodes);
     const auto all = events(render("json").err);
-    std::vector<std::string> names;
-    for (const auto& e : all) names.push_back(e.at("event"));
-    EXPECT_THAT(names,
-                testing::ElementsAre("warning", "start", "frame_started", "frame_ended", "frame_started",
-                                     "frame_ended", "frame_started", "frame_ended", "end"));
+    // Frames overlap, so that one may start before another ends; each kind comes in order.
+    std::vector<std::string> others;
+    std::vector<int> started, ended;
+    for (const auto& e : all) {
+        const std::string event = e.at("event");
+        if (event == "frame_started")
+            started.push_back(e.at("frame"));
+        else if (event == "frame_ended")
+            ended.push_back(e.at("frame"));
+        else
+            others.push_back(event);
+        EXPECT_TRUE(event != "frame_ended" || e.at("outcome") == "done");
+    }
+    EXPECT_THAT(others, testing::ElementsAre("warning", "start", "end"));
+    EXPECT_THAT(started, testing::ElementsAre(1, 2, 3));
+    EXPECT_THAT(ended, testing::ElementsAre(1, 2, 3));
     EXPECT_EQ(all[1].at("frames"), 3);
     EXPECT_EQ(all[2].at("outputs").at(0), "out.1.exr");
-    EXPECT_EQ(all[3].at("outcome"), "done");
     EXPECT_EQ(all.back().at("done"), 3);
 }
 
