@@ -117,7 +117,7 @@ TEST_P(RandomGraphs, GiveTheSameBytesInLittleMemory) {
     EXPECT_GT(plans, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomGraphs, ::testing::Range(0U, 16U));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomGraphs, ::testing::Range(0U, 24U));
 
 TEST(RandomGraphs, OfOnePixelTilesTheSame) {
     const Image in = noise({-3, -2, 21, 17}, {"R", "G", "B", "A"}, 5);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/exr_files.h"
-#include "tests/nodes/file_runs.h"
+#include "tests/support/render_files.h"
 
 #include <cmath>
 #include <gmock/gmock.h>

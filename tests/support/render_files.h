@@ -23,19 +23,23 @@ public:
     void error(const Error& e) override { errors.push_back(e.text()); }
 };
 
-inline Rendered render_files(const Json& nodes, int frame = 1) {
+inline Rendered render_files(const Json& nodes, RenderOptions options) {
     Rendered out;
     Diagnostics diagnostics;
     const Json graph{{"keyline", 1}, {"nodes", nodes}};
     const auto loaded = Graph::parse(graph.text(), "test.json", ".", {}, diagnostics);
     for (const Error& e : diagnostics.errors()) out.error(e);
     if (!loaded) return out;
-    RenderOptions options;
-    options.frames = {frame};
-    options.threads = 2;
     const std::atomic<bool> cancel = false;
     out.status = render(*loaded, options, out, cancel).status;
     return out;
+}
+
+inline Rendered render_files(const Json& nodes, int frame = 1) {
+    RenderOptions options;
+    options.frames = {frame};
+    options.threads = 2;
+    return render_files(nodes, options);
 }
 
 }  // namespace keyline::testing
