@@ -150,7 +150,7 @@ Error error_of_run(const Json& node, int threads) {
 
 TEST(Execute, DecodesOnlyTheChannelsAndChunksInUse) {
     const Json nodes{{"wide", {{"type", "dilate"}, {"in", "in:Z"}, {"radius", 1}}},
-                     {"part", {{"type", "crop"}, {"in", "wide"}, {"window", {40, 17, 49, 23}}}}};
+                     {"part", {{"type", "cut_out"}, {"in", "wide"}, {"window", {40, 17, 49, 23}}}}};
     // With the halo x from 39 to 50 and y from 16 to 24: columns 2 and 3, row 2.
     EXPECT_THAT(decoded_for(nodes, "part"),
                 ::testing::ElementsAre(std::pair(std::array{3, 2, 2}, 1), std::pair(std::array{3, 3, 2}, 1)));

@@ -64,7 +64,7 @@ TEST(Plan, OnlyTheRegionInUseIsReadAndComputed) {
     register_test_nodes<Crop>();
     const Json nodes{{"smooth", {{"type", "gaussian"}, {"in", "in:Normal"}, {"sigma", 2}}},
                      {"wide", {{"type", "dilate"}, {"in", "smooth"}, {"radius", 3}}},
-                     {"part", {{"type", "crop"}, {"in", "wide"}, {"window", {100, 50, 120, 60}}}}};
+                     {"part", {{"type", "cut_out"}, {"in", "wide"}, {"window", {100, 50, 120, 60}}}}};
     const Plan plan = planned(nodes, "part");
     EXPECT_EQ(plan.stores.front().region, (Rect{100 - 8, 50 - 8, 120 + 8, 60 + 8}));
     EXPECT_EQ(plan.sweeps.front().area, (Rect{100, 50, 120, 60}));
@@ -73,14 +73,14 @@ TEST(Plan, OnlyTheRegionInUseIsReadAndComputed) {
 TEST(Plan, AtTheEdgeNothingOutsideTheWindowIsDemanded) {
     register_test_nodes<Crop>();
     const Json nodes{{"smooth", {{"type", "gaussian"}, {"in", "in:Normal"}, {"sigma", 2}}},
-                     {"part", {{"type", "crop"}, {"in", "smooth"}, {"window", {290, 0, 999, 3}}}}};
+                     {"part", {{"type", "cut_out"}, {"in", "smooth"}, {"window", {290, 0, 999, 3}}}}};
     EXPECT_EQ(planned(nodes, "part").stores.front().region, (Rect{290 - 5, 0, 300, 3 + 5}));
 }
 
 TEST(Plan, AWholeFrameNodeNeedsItsWholeInput) {
     register_test_nodes<Crop>();
     Json nodes = canny({{"low", 0.1}});
-    nodes.set("part", {{"type", "crop"}, {"in", "edges"}, {"window", {0, 0, 5, 5}}});
+    nodes.set("part", {{"type", "cut_out"}, {"in", "edges"}, {"window", {0, 0, 5, 5}}});
     EXPECT_EQ(planned(nodes, "part").stores.front().region, (Rect{0, 0, 300, 200}));
 }
 

@@ -13,7 +13,7 @@ namespace keyline::testing {
 
 // Cuts the data window: what lies outside is demanded from nobody.
 struct Crop {
-    static constexpr Info info{"crop", "A part of the image."};
+    static constexpr Info info{"cut_out", "A part of the image."};
     struct Params {
         Input in;
         std::array<int, 4> window{};
