@@ -69,11 +69,15 @@ void Progress::frame_ended(int frame, FrameOutcome outcome) {
     const auto begun = at_work_.find(frame);
     const double seconds = begun == at_work_.end() ? 0 : seconds_since(begun->second);
     at_work_.erase(frame);
-    ++ended_;
+    switch (outcome) {
+        case FrameOutcome::kDone: ++done_; break;
+        case FrameOutcome::kSkipped: ++skipped_; break;
+        case FrameOutcome::kFailed: ++failed_; break;
+    }
     if (mode_ == ProgressMode::kBar) draw_bar(fmt::format("frame {} {}", frame, outcome_name(outcome)));
     if (mode_ == ProgressMode::kLines)
         print_message(fmt::format("frame {}: {} in {} ({} of {})", frame, outcome_name(outcome),
-                                  seconds_text(seconds), ended_, frames_));
+                                  seconds_text(seconds), ended(), frames_));
     if (mode_ == ProgressMode::kJson)
         print_message(JsonWriter()
                           .begin_object()
@@ -81,27 +85,27 @@ void Progress::frame_ended(int frame, FrameOutcome outcome) {
                           .field("frame", frame)
                           .field("outcome", outcome_name(outcome))
                           .field("seconds", seconds)
-                          .field("ended", ended_)
+                          .field("ended", ended())
                           .field("frames", frames_)
                           .end_object()
                           .text());
 }
 
-void Progress::end(const RenderResult& result) {
+void Progress::end() {
     clear_bar();
     if (mode_ == ProgressMode::kJson)
         print_message(JsonWriter()
                           .begin_object()
                           .field("event", "end")
-                          .field("done", result.done)
-                          .field("skipped", result.skipped)
-                          .field("failed", result.failed)
+                          .field("done", done_)
+                          .field("skipped", skipped_)
+                          .field("failed", failed_)
                           .field("seconds", seconds_since(start_))
                           .end_object()
                           .text());
-    else if (mode_ != ProgressMode::kNone && ended_ > 0 && frames_ > 1)
-        print_message(fmt::format("{} of {} frames done, {} skipped, {} failed, in {}", result.done, frames_,
-                                  result.skipped, result.failed, seconds_text(seconds_since(start_))));
+    else if (mode_ != ProgressMode::kNone && ended() > 0 && frames_ > 1)
+        print_message(fmt::format("{} of {} frames done, {} skipped, {} failed, in {}", done_, frames_,
+                                  skipped_, failed_, seconds_text(seconds_since(start_))));
 }
 
 void Progress::warning(const Error& warning) { print("warning", warning.warning_text()); }
@@ -117,15 +121,15 @@ void Progress::print(const char* event, const std::string& text) {
 }
 
 std::string Progress::time_left() const {
-    if (ended_ == 0 || ended_ == frames_) return "";
-    const double a_frame = seconds_since(start_) / static_cast<double>(ended_);
-    return fmt::format(", {} left", seconds_text(a_frame * static_cast<double>(frames_ - ended_)));
+    if (ended() == 0 || ended() == frames_) return "";
+    const double a_frame = seconds_since(start_) / static_cast<double>(ended());
+    return fmt::format(", {} left", seconds_text(a_frame * static_cast<double>(frames_ - ended())));
 }
 
 void Progress::draw_bar(const std::string& now) {
-    const std::size_t full = frames_ == 0 ? 0 : kBarWidth * ended_ / frames_;
+    const std::size_t full = frames_ == 0 ? 0 : kBarWidth * ended() / frames_;
     const std::string line = fmt::format("\r\x1b[K[{:=<{}}{: <{}}] {} of {}, {}{}", "", full, "",
-                                         kBarWidth - full, ended_, frames_, now, time_left());
+                                         kBarWidth - full, ended(), frames_, now, time_left());
     std::fwrite(line.data(), 1, line.size(), stderr);
     bar_drawn_ = true;
 }

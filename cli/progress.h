@@ -26,7 +26,7 @@ public:
     explicit Progress(ProgressMode mode) : mode_(mode) {}
 
     void start(std::size_t frames);
-    void end(const RenderResult& result);
+    void end();
 
     void frame_started(int frame, const Plan& plan) override;
     void frame_ended(int frame, FrameOutcome outcome) override;
@@ -39,10 +39,11 @@ private:
     void draw_bar(const std::string& now);
     void clear_bar();
     void print(const char* event, const std::string& text);
+    std::size_t ended() const { return done_ + skipped_ + failed_; }
     std::string time_left() const;
 
     ProgressMode mode_;
-    std::size_t frames_ = 0, ended_ = 0;
+    std::size_t frames_ = 0, done_ = 0, skipped_ = 0, failed_ = 0;
     Clock::time_point start_;
     std::map<int, Clock::time_point> at_work_;  // frames, and when each was begun; they overlap
     bool bar_drawn_ = false;

@@ -9,6 +9,7 @@
 #include "cli/report.h"
 #include "cli/signals.h"
 
+#include <csignal>
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
@@ -52,7 +53,8 @@ ProgressMode progress_mode(const std::string& word, Diagnostics& diagnostics) {
 }
 
 int stopped(const StopOnSignal& stop) {
-    print_message("stopped by a signal; no unfinished output is left");
+    print_message(fmt::format("stopped by {}; no unfinished output is left",
+                              stop.signal() == SIGTERM ? "SIGTERM" : "SIGINT"));
     return stop.exit_status();
 }
 
@@ -73,11 +75,11 @@ int run(const RenderArguments& arguments) {
     progress.start(options.frames.size());
     try {
         const RenderResult result = render(*loaded.graph, options, progress, stop.requested());
-        progress.end(result);
+        progress.end();
         if (options.recorder) write_profile(recorder, arguments.profile);
         return result.status;
     } catch (const Failure& f) {
-        progress.end({});
+        progress.end();
         if (f.error().kind != ErrorKind::kCancelled) throw;
         return stopped(stop);
     }
