@@ -50,10 +50,10 @@ TEST_F(Frames, NegativeFrames) {
 TEST_F(Frames, InTheOrderGivenAndEachOnce) {
     graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
              "out": { "type": "write", "in": "c", "file": "out.#.exr" })");
-    const Outcome run = render("3,1,3", {"--progress", "lines"});
+    const Outcome run = render("3,1,3", {"--progress", "json"});
     EXPECT_EQ(run.status, 0);
-    EXPECT_LT(run.err.find("frame 3: done"), run.err.find("frame 1: done"));
-    EXPECT_THAT(run.err, HasSubstr("2 of 2 frames done"));
+    EXPECT_LT(run.err.find(R"("outputs": ["out.3.exr"])"), run.err.find(R"("outputs": ["out.1.exr"])"));
+    EXPECT_THAT(run.err, HasSubstr(R"("done": 2)"));
 }
 
 TEST_F(Frames, TheFrameAsAParameterNeedsFramesToo) {

@@ -100,6 +100,11 @@ TEST_F(Report, NodesAsMarkdownHasEveryTypeAndParameter) {
     }
 }
 
+TEST_F(Report, TheManualsNodesAreWhatIsDeclared) {
+    EXPECT_EQ(keyline({"nodes", "--markdown"}).out, read(fs::path(KEYLINE_DOCS) / "nodes.md"))
+        << "write it anew with: keyline nodes --markdown > docs/nodes.md";
+}
+
 TEST_F(Report, TheSchemaKnowsTypesRangesAndWords) {
     const Json schema = Json::parse(keyline({"nodes", "--schema"}).out);
     EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
