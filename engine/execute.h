@@ -19,8 +19,8 @@ public:
     // The next frame, planned, with its outputs begun; null where there is none left.  Must not throw.
     virtual std::unique_ptr<FrameRun> next() = 0;
 
-    // A frame is done, or ended by its error().  Frames end in the order they came in.  Returns whether to go on; if not,
-    // the frames under way are given up.
+    // A frame is done, or ended by its error().  Frames end in the order they came in.  Returns whether to go
+    // on; if not, the frames under way are given up.
     virtual bool ended(const FrameRun& frame) = 0;
 };
 

@@ -38,7 +38,7 @@ constexpr double kTolerableOverhead = 1.5;
 
 int rows_ahead_for(const Plan& plan, int threads) {
     int columns = 1;
-    for (const Sweep& s : plan.sweeps) columns = std::max(columns, s.end_column() - s.first_column());
+    for (const Sweep& s : plan.sweeps) columns = std::max(columns, static_cast<int>(s.columns.size()));
     return 2 + (2 * threads + columns - 1) / columns;
 }
 

@@ -72,6 +72,9 @@ struct Root {
 struct Sweep {
     Rect area;  // the union of the roots' regions
     int tile_width = 0, tile_height = 0;
+    // Of the grid of tiles through the origin, those that a root's region lies in: what lies between regions
+    // far apart costs nothing.
+    std::vector<int> columns, rows;
     std::vector<Step> steps;                     // in an order in which each comes after what it reads
     std::vector<std::vector<Operand>> operands;  // by step: its links' values, flat
     int slots = 0;                               // scratch buffers
@@ -80,13 +83,14 @@ struct Sweep {
     std::size_t scratch_bytes = 0;  // of one worker, at most
     std::size_t memory_bytes = 0;   // of the process while this sweep runs, estimated
 
-    int first_row() const { return floor_div(area.y0, tile_height); }
-    int end_row() const { return area.empty() ? first_row() : floor_div(area.y1 - 1, tile_height) + 1; }
-    int first_column() const { return floor_div(area.x0, tile_width); }
-    int end_column() const { return area.empty() ? first_column() : floor_div(area.x1 - 1, tile_width) + 1; }
-    Rect tile(int column, int row) const {
-        const int x = column * tile_width, y = row * tile_height;
-        return intersect(area, {x, y, x + tile_width, y + tile_height});
+    // Both count from 0, over `columns` and `rows`.
+    Rect tile(std::size_t column, std::size_t row) const {
+        const int x = columns[column] * tile_width;
+        return intersect(row_rect(row), {x, area.y0, x + tile_width, area.y1});
+    }
+    Rect row_rect(std::size_t row) const {
+        const int y = rows[row] * tile_height;
+        return intersect(area, {area.x0, y, area.x1, y + tile_height});
     }
 };
 

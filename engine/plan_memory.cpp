@@ -19,9 +19,8 @@ constexpr std::size_t kWorkerBytes = std::size_t{1} << 20;
 
 std::size_t scratch_bytes(const Plan& plan, const Sweep& sweep) {
     if (sweep.area.empty()) return 0;
-    const int column = (sweep.first_column() + sweep.end_column()) / 2,
-              row = (sweep.first_row() + sweep.end_row()) / 2;
-    const std::vector<Rect> regions = step_regions(plan, sweep, sweep.tile(column, row));
+    const Rect middle = sweep.tile(sweep.columns.size() / 2, sweep.rows.size() / 2);
+    const std::vector<Rect> regions = step_regions(plan, sweep, middle);
     std::vector<std::size_t> slots(static_cast<std::size_t>(sweep.slots), 0);
     std::size_t largest = 0;
     for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -54,11 +53,11 @@ bool is_alive(const Store& store, int sweep) {
 int live_rows(const Plan& plan, const Sweep& sweep, const Store& store) {
     const auto index = static_cast<std::size_t>(&store - plan.stores.data());
     int most = 0;
-    for (int row = sweep.first_row(); row < sweep.end_row(); ++row) {
+    for (std::size_t row = 0; row < sweep.rows.size(); ++row) {
         Rect tiles;
-        for (int r = row; r < std::min(sweep.end_row(), row + plan.rows_ahead); ++r)
-            tiles = unite(tiles, intersect(sweep.area, {sweep.area.x0, r * sweep.tile_height, sweep.area.x1,
-                                                        (r + 1) * sweep.tile_height}));
+        for (std::size_t r = row;
+             r < std::min(sweep.rows.size(), row + static_cast<std::size_t>(plan.rows_ahead)); ++r)
+            tiles = unite(tiles, sweep.row_rect(r));
         most = std::max(most, store_regions(plan, sweep, tiles)[index].height());
     }
     return std::min(store.region.height(), most + 2 * store.band_height);

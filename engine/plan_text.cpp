@@ -86,9 +86,8 @@ private:
 
     void sweep(std::size_t i) {
         const Sweep& s = plan_.sweeps[i];
-        const int tiles = (s.end_column() - s.first_column()) * (s.end_row() - s.first_row());
         line(0, fmt::format("\nsweep {} of {}: {}, {} of {} × {}, {} of memory", i + 1, plan_.sweeps.size(),
-                            describe(s.area), counted(static_cast<std::size_t>(tiles), "tile"), s.tile_width,
+                            describe(s.area), counted(s.columns.size() * s.rows.size(), "tile"), s.tile_width,
                             s.tile_height, memory_text(s.memory_bytes)));
         for (const int store : s.reads) decode(plan_.stores[static_cast<std::size_t>(store)], i);
         steps(s);

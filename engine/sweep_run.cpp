@@ -34,16 +34,12 @@ SweepRun::SweepRun(const Plan& plan, int sweep, FrameData& data,
     plan_folds();
 }
 
-Rect SweepRun::row_rect(int row) const {
-    const int y = (sweep_.first_row() + row) * sweep_.tile_height;
-    return intersect(sweep_.area, {sweep_.area.x0, y, sweep_.area.x1, y + sweep_.tile_height});
-}
+Rect SweepRun::row_rect(int row) const { return sweep_.row_rect(index(row)); }
 
 void SweepRun::plan_rows() {
-    const int columns = sweep_.end_column() - sweep_.first_column();
-    rows_.resize(index(sweep_.end_row() - sweep_.first_row()));
+    rows_.resize(sweep_.rows.size());
     for (int r = 0; r < static_cast<int>(rows_.size()); ++r) {
-        rows_[index(r)].tiles_left = columns;
+        rows_[index(r)].tiles_left = columns();
         row_needs_.push_back(store_regions(plan_, sweep_, row_rect(r)));
     }
     users_.resize(plan_.stores.size());
@@ -164,10 +160,9 @@ std::optional<Job> SweepRun::next() {
 }
 
 std::optional<Job> SweepRun::next_tile() {
-    const int columns = sweep_.end_column() - sweep_.first_column();
     for (int r = lowest_row_; r < last_open_row(); ++r) {
         Row& row = rows_[index(r)];
-        if (row.bands_missing > 0 || row.tiles_started == columns) continue;
+        if (row.bands_missing > 0 || row.tiles_started == columns()) continue;
         return Job{Job::Kind::kTile, 0, r, row.tiles_started++};
     }
     return std::nullopt;
@@ -202,10 +197,10 @@ void SweepRun::run_decode(const Job& job, int worker) const {
 }
 
 void SweepRun::run_tile(const Job& job, TileWorker& worker) {
-    const Rect tile = sweep_.tile(sweep_.first_column() + job.column, sweep_.first_row() + job.row);
+    const Rect tile = sweep_.tile(index(job.column), index(job.row));
     TileResult result = worker.compute(plan_, sweep_, data_, tile);
-    const int columns = sweep_.end_column() - sweep_.first_column();
-    for (Fold& f : folds_) fold(f, job.row * columns + job.column, std::move(result.partials[index(f.root)]));
+    for (Fold& f : folds_)
+        fold(f, job.row * columns() + job.column, std::move(result.partials[index(f.root)]));
     const std::lock_guard lock(count_mutex_);
     for (const Output& out : outputs_) overflowed_[index(out.sink)] += result.overflowed[index(out.root)];
 }

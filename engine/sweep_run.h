@@ -77,6 +77,7 @@ private:
     void plan_folds();
     int due_row(int store, int band) const;
     Rect row_rect(int row) const;
+    int columns() const { return static_cast<int>(sweep_.columns.size()); }
     int last_open_row() const;
     void start_rows();
     void row_done(int row);

@@ -241,8 +241,24 @@ private:
                 sweep.reads.push_back(static_cast<int>(i));
         sweep.tile_width = choices_.tile_width;
         sweep.tile_height = choices_.tile_height;
+        lay_grid(sweep);
         assign_slots(sweep);
         return sweep;
+    }
+
+    static void lay_grid(Sweep& sweep) {
+        std::set<int> columns, rows;
+        const auto cover = [](std::set<int>& lines, int from, int to, int size) {
+            for (int line = floor_div(from, size); line <= floor_div(to - 1, size); ++line)
+                lines.insert(line);
+        };
+        for (const Root& root : sweep.roots) {
+            if (root.region.empty()) continue;
+            cover(columns, root.region.x0, root.region.x1, sweep.tile_width);
+            cover(rows, root.region.y0, root.region.y1, sweep.tile_height);
+        }
+        sweep.columns.assign(columns.begin(), columns.end());
+        sweep.rows.assign(rows.begin(), rows.end());
     }
 
     void mark_untouched(RootNeed& need, const Sweep& sweep) const {

@@ -70,6 +70,14 @@ TEST(Plan, OnlyTheRegionInUseIsReadAndComputed) {
     EXPECT_EQ(plan.sweeps.front().area, (Rect{100, 50, 120, 60}));
 }
 
+TEST(Plan, WhatLiesBetweenOutputsFarApartIsNotTiled) {
+    const Json nodes{{"away", {{"type", "transform"}, {"in", "in"}, {"translate", {900'000, 900'000}}}}};
+    const Plan plan = make_plan(resolve_graph(nodes, {"in", "away"}, {{"in", {passes()}}}), {.tile = 50});
+    EXPECT_GT(plan.sweeps.front().area.width(), 900'000);
+    EXPECT_LE(plan.sweeps.front().columns.size(), 2 * (300U / 50 + 2));
+    EXPECT_LE(plan.sweeps.front().rows.size(), 2 * (200U / 50 + 2));
+}
+
 TEST(Plan, AtTheEdgeNothingOutsideTheWindowIsDemanded) {
     register_test_nodes<Crop>();
     const Json nodes{{"smooth", {{"type", "gaussian"}, {"in", "in:Normal"}, {"sigma", 2}}},
