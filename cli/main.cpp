@@ -83,6 +83,7 @@ std::optional<int> parse(CLI::App& program, int argc, char** argv) {
 int run(int argc, char** argv) {
     clear_ocio_environment();
     std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is a write that fails
+    std::signal(SIGXFSZ, SIG_IGN);  // and so is a file that grows beyond what the system allows
     CLI::App program("Keyline renders node graphs for toon looks.", "keyline");
     program.set_version_flag("--version", version_text, "The versions of Keyline and its libraries");
     program.set_help_flag("--help,-h", "This help");

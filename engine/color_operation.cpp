@@ -20,7 +20,10 @@ struct ColorConvert {
     static constexpr std::array outputs{"R", "G", "B"};
     static constexpr bool passes_others = true;
 
-    void edit(Metadata& metadata) const { metadata.erase("chromaticities"); }
+    void edit(Metadata& metadata) const {
+        metadata.erase("chromaticities");
+        metadata.erase("ICCProfile");  // OpenImageIO's name for it
+    }
     double cost() const { return 60; }
 
     void compute(const Inputs& in, Outputs out, Scratch&) const {

@@ -8,7 +8,8 @@
 namespace keyline {
 
 // The stream with its R G B converted, unpremultiplied around the transform where there is an A; all else
-// passes.  The metadata loses `chromaticities`, which no longer hold.
+// passes.  The metadata loses `chromaticities` and
+// `ICCProfile`, which no longer hold.
 Stream convert_colour(Builder& builder, const Stream& stream, const ColorTransform& transform);
 
 // The same for every layer that has R G B.

@@ -52,19 +52,23 @@ TEST(ColorspaceNode, WhereAlphaIsNotPositiveColourIsTakenAsItIs) {
 TEST(ColorspaceNode, OtherChannelsPassAndChromaticitiesGo) {
     Image in = noise({0, 0, 8, 8}, {"R", "G", "B", "A", "depth.Z"}, 4, 0.1F, 1);
     in.metadata.set({"chromaticities", "chromaticities", std::vector<float>(8, 0.3F)});
+    in.metadata.set({"ICCProfile", "bytes", std::vector<std::byte>(9)});
     in.metadata.set({"artist", "string", std::string("me")});
     const Image out = run("colorspace", kDecode, in);
     EXPECT_IMAGE(only(out, {"A", "depth.Z"}), only(in, {"A", "depth.Z"}));
     EXPECT_EQ(out.metadata.find("chromaticities"), nullptr);
+    EXPECT_EQ(out.metadata.find("ICCProfile"), nullptr);
     EXPECT_NE(out.metadata.find("artist"), nullptr);
 }
 
 TEST(ColorspaceNode, BetweenEqualSpacesNothingChanges) {
     Image in = noise({0, 0, 8, 8}, {"R", "G", "B", "A"}, 4, 0.1F, 1);
     in.metadata.set({"chromaticities", "chromaticities", std::vector<float>(8, 0.3F)});
+    in.metadata.set({"ICCProfile", "bytes", std::vector<std::byte>(9)});
     const Image out = run("colorspace", {{"to", "scene_linear"}}, in);
     EXPECT_IMAGE(out, in);
     EXPECT_NE(out.metadata.find("chromaticities"), nullptr);
+    EXPECT_NE(out.metadata.find("ICCProfile"), nullptr);
 }
 
 TEST(ColorspaceNode, SaysWhichSpacesThereAre) {

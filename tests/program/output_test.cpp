@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 // What stands in the folder after a run that did not end well.
 
@@ -71,6 +72,23 @@ TEST_F(Outputs, AnOlderFileStaysWhenARenderFails) {
     EXPECT_EQ(keyline({"render", "graph.json"}).status, 3);
     EXPECT_EQ(read(folder() / "out.exr"), "what was there before");
     EXPECT_THAT(files(), ElementsAre("graph.json", "out.exr", "plate.exr"));
+}
+
+TEST_F(Outputs, AFileThatMayNotGrowIsAnErrorOfTheOutput) {
+    write("out.exr", "what was there before");
+    graph(R"("r": { "type": "read", "file": ")" + (plates() / "street.0001.exr").string() + R"(" },
+             "out": { "type": "write", "in": "r", "file": "out.exr" })");
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit little{64 << 10, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &little);
+    Process process({"render", "graph.json"}, {.folder = folder()});
+    setrlimit(RLIMIT_FSIZE, &before);
+    const Outcome run = process.wait();
+    EXPECT_EQ(run.status, 4) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("out.exr"));
+    EXPECT_EQ(read(folder() / "out.exr"), "what was there before");
+    EXPECT_THAT(files(), ElementsAre("graph.json", "out.exr"));
 }
 
 TEST_F(Outputs, AnOlderFileIsReplacedAndFoldersAreMade) {
