@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/plan_memory.h"
 
+#include "engine/io/image_module.h"
 #include "engine/io/image_sink.h"
 
 #include <algorithm>
@@ -13,9 +14,16 @@ namespace keyline {
 namespace {
 
 // The program, its libraries and their heaps before a frame is begun; measured with an empty graph.
-constexpr std::size_t kProcessBytes = std::size_t{24} << 20;
+constexpr std::size_t kProcessBytes = std::size_t{14} << 20;
 // A worker's stack as far as it is touched, and the allocator's arena.
 constexpr std::size_t kWorkerBytes = std::size_t{1} << 20;
+
+std::size_t process_bytes(const Plan& plan) {
+    const bool has_module = module_is_loaded() || std::ranges::any_of(plan.frame.sinks, [](const Sink& sink) {
+                                return needs_module(sink.request.file);
+                            });
+    return kProcessBytes + (has_module ? kModuleBytes : 0);
+}
 
 std::size_t scratch_bytes(const Plan& plan, const Sweep& sweep) {
     if (sweep.area.empty()) return 0;
@@ -65,6 +73,7 @@ int live_rows(const Plan& plan, const Sweep& sweep, const Store& store) {
 
 void estimate_memory(Plan& plan) {
     plan.memory_bytes = 0;
+    const std::size_t process = process_bytes(plan);
     for (std::size_t s = 0; s < plan.sweeps.size(); ++s) {
         Sweep& sweep = plan.sweeps[s];
         const int index = static_cast<int>(s);
@@ -86,7 +95,8 @@ void estimate_memory(Plan& plan) {
         for (const Op& op : plan.frame.ops)
             if (op.operation && op.operation->reduction() && !op.links.empty())
                 frame += op.operation->reduction()->state_bytes(op.links.front().window);
-        sweep.memory_bytes = kProcessBytes + frame + worker * static_cast<std::size_t>(plan.threads);
+        frame += frame / 64;  // what the allocator adds
+        sweep.memory_bytes = process + frame + worker * static_cast<std::size_t>(plan.threads);
         plan.memory_bytes = std::max(plan.memory_bytes, sweep.memory_bytes);
     }
 }

@@ -73,10 +73,16 @@ public:
     std::size_t chunk_memory(std::size_t group) const override {
         const Part& part = groups_[group]->part;
         return ContainedUnpacker::is_for(part) ? ContainedUnpacker::memory(part)
-                                               : ChunkUnpacker::memory(part);
+                                               : ChunkUnpacker::memory(part, large_chunk(part));
     }
 
 private:
+    // How large a part's chunks are in the file; few hold more than three times their share.
+    std::size_t large_chunk(const Part& part) const {
+        const double share = double(part.chunk_width) * block_rows(part) / double(part.data_window.area());
+        return static_cast<std::size_t>(3 * share * static_cast<double>(file_.size()));
+    }
+
     struct Group {
         Group(const InputFile& file, const ReadContext& context, const Part& p, const TakenPart& taken)
             : part(p),

@@ -99,10 +99,11 @@ Block ChunkUnpacker::unpack_in_core(const exr_chunk_info_t& chunk, const Rect& r
     return {rect, {static_cast<const std::byte*>(pipeline_.unpacked_buffer), layout_.bytes(rect)}};
 }
 
-std::size_t ChunkUnpacker::memory(const Part& part) {
+std::size_t ChunkUnpacker::memory(const Part& part, std::size_t packed) {
     const Rect chunk{0, 0, part.chunk_width, part.chunk_height};
     const std::size_t unpacked = BlockLayout(part.types()).bytes(chunk);
-    if (is_deflated(part.compression) || part.compression == Compression::kNone) return 2 * unpacked;
+    if (is_deflated(part.compression) || part.compression == Compression::kNone)
+        return unpacked + std::min(packed, unpacked);
     return 4 * unpacked + kCoreTables;
 }
 

@@ -53,8 +53,8 @@ public:
     // `rect`: a chunk.
     Block unpack(const Rect& rect) override;
 
-    // Bytes that unpack() may need for chunks of the part.
-    static std::size_t memory(const Part& part);
+    // Bytes that unpack() may need for chunks of the part that are `packed` bytes large in the file.
+    static std::size_t memory(const Part& part, std::size_t packed);
 
 private:
     Block inflate(std::span<const std::byte> packed, const Rect& rect);

@@ -4,6 +4,9 @@
 
 #include "engine/error.h"
 
+#include <algorithm>
+#include <atomic>
+#include <cctype>
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -12,6 +15,8 @@
 namespace keyline {
 
 namespace {
+
+std::atomic<bool> module_loaded = false;
 
 class Module {
 public:
@@ -34,6 +39,7 @@ private:
         open = reinterpret_cast<KeylineOpenImage*>(symbol(handle, "keyline_open_image"));
         create = reinterpret_cast<KeylineCreateImage*>(symbol(handle, "keyline_create_image"));
         check = reinterpret_cast<KeylineCheckImage*>(symbol(handle, "keyline_check_image"));
+        module_loaded = true;
     }
 
     static void* symbol(void* handle, const char* name) {
@@ -68,6 +74,15 @@ std::unique_ptr<ImageSink> create_with_module(const std::filesystem::path& file,
 void check_with_module(const std::filesystem::path& file, const SinkSpec& spec) {
     module_for(file, ErrorKind::kOutput).check(file.c_str(), &spec);
 }
+
+bool needs_module(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension != ".exr";
+}
+
+bool module_is_loaded() { return module_loaded; }
 
 std::filesystem::path module_folder() {
     Dl_info library = {};

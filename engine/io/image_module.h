@@ -5,6 +5,7 @@
 #include "engine/io/image_sink.h"
 #include "engine/io/image_source.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 
@@ -30,6 +31,15 @@ namespace keyline {
 std::unique_ptr<ImageSource> open_with_module(const std::filesystem::path& file, const OpenOptions& options);
 std::unique_ptr<ImageSink> create_with_module(const std::filesystem::path& file, const SinkSpec& spec);
 void check_with_module(const std::filesystem::path& file, const SinkSpec& spec);
+
+// Whether a file of this name is written by the module.
+bool needs_module(const std::filesystem::path& file);
+
+bool module_is_loaded();
+
+// What the module and the libraries behind it add to the process, as measured with an empty image: most of it
+// is the libraries' own start.
+constexpr std::size_t kModuleBytes = std::size_t{124} << 20;
 
 // The folder of Keyline's own modules and helper programs, beside its library.
 std::filesystem::path module_folder();

@@ -12,19 +12,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fmt/format.h>
 
 namespace keyline {
 
 namespace {
-
-bool has_exr_name(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension == ".exr";
-}
 
 bool has_exr_content(const std::filesystem::path& file) {
     std::array<std::byte, exr::kMagic.size()> start = {};
@@ -59,18 +51,18 @@ bool is_finished_other(const ImageHeader& header, const SinkSpec& spec) {
 
 std::unique_ptr<ImageSource> open_image(const std::filesystem::path& file, const OpenOptions& options) {
     if (has_exr_content(file)) return exr::open_exr(file, options);
-    if (has_exr_name(file))
+    if (!needs_module(file))
         fail(ErrorKind::kInput,
              fmt::format("{}: not an OpenEXR file, as its name says it is", file.string()));
     return open_with_module(file, options);
 }
 
 std::unique_ptr<ImageSink> create_image(const std::filesystem::path& file, const SinkSpec& spec) {
-    return has_exr_name(file) ? exr::create_exr(file, spec) : create_with_module(file, spec);
+    return !needs_module(file) ? exr::create_exr(file, spec) : create_with_module(file, spec);
 }
 
 void check_image(const std::filesystem::path& file, const SinkSpec& spec) {
-    if (has_exr_name(file))
+    if (!needs_module(file))
         exr::layout_of(spec);
     else
         check_with_module(file, spec);
@@ -79,8 +71,8 @@ void check_image(const std::filesystem::path& file, const SinkSpec& spec) {
 bool is_finished(const std::filesystem::path& file, const SinkSpec& spec) {
     try {
         const std::unique_ptr<ImageSource> image = open_image(file);
-        return has_exr_name(file) ? is_finished_exr(image->header(), spec)
-                                  : is_finished_other(image->header(), spec);
+        return !needs_module(file) ? is_finished_exr(image->header(), spec)
+                                   : is_finished_other(image->header(), spec);
     } catch (const Failure& failure) {
         // Not there, or not readable: to be made.  What can't be made is for create_image() to say.
         if (failure.error().kind == ErrorKind::kInput || failure.error().kind == ErrorKind::kGraph)
