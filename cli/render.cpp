@@ -13,7 +13,10 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <sys/resource.h>
+#include <utility>
 
 namespace keyline::cli {
 
@@ -26,14 +29,25 @@ struct RenderArguments {
     std::string profile;  // the trace's file; empty: none
 };
 
-// Where the time went: a table on standard output, a trace in the file.
-void write_profile(const Recorder& recorder, const std::string& file) {
-    std::ofstream out(file);
-    out << recorder.chrome_trace() << std::flush;
-    if (!out) fail(ErrorKind::kOutput, "cannot write the profile " + in_quotes(file));
+// What the process read from files and wrote to them so far, as Linux counts it; 0 where it does not.
+std::pair<double, double> megabytes_moved() {
+    std::ifstream io("/proc/self/io");
+    std::map<std::string, double> counts;
+    std::string name;
+    for (double bytes = 0; io >> name >> bytes;) counts[name] = bytes / (1 << 20);
+    return {counts["rchar:"], counts["wchar:"]};
+}
+
+// Where the time went: the trace's end, and a table on standard output.
+void end_profile(Recorder& recorder) {
+    recorder.finish();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    std::cout << recorder.table() << fmt::format("{:9}  MiB of memory at most\n", usage.ru_maxrss >> 10);
+    const auto [read, written] = megabytes_moved();
+    std::cout << recorder.table()
+              << fmt::format("{:9.1f}  MiB read from files, {:.1f} MiB written, this trace too\n", read,
+                             written)
+              << fmt::format("{:9}  MiB of memory at most\n", usage.ru_maxrss >> 10);
 }
 
 void tell(const Diagnostics& diagnostics, Progress& progress) {
@@ -69,14 +83,14 @@ int run(const RenderArguments& arguments) {
     tell(diagnostics, progress);
     if (!diagnostics.ok()) return exit_status(diagnostics);
 
-    Recorder recorder;
-    if (!arguments.profile.empty()) options.recorder = &recorder;
+    std::optional<Recorder> recorder;
+    if (!arguments.profile.empty()) options.recorder = &recorder.emplace(arguments.profile);
     const StopOnSignal stop;
     progress.start(options.frames.size());
     try {
         const RenderResult result = render(*loaded.graph, options, progress, stop.requested());
         progress.end();
-        if (options.recorder) write_profile(recorder, arguments.profile);
+        if (recorder) end_profile(*recorder);
         return result.status;
     } catch (const Failure& f) {
         progress.end();

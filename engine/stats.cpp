@@ -2,30 +2,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/stats.h"
 
+#include "engine/error.h"
+
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace keyline {
 
 namespace {
 
-struct Total {
-    int64_t calls = 0, pixels = 0, wanted = 0;
-    double seconds = 0;
-};
-
-using Key = std::tuple<int, Activity, std::string>;  // sweep, activity, title
-
 double seconds_between(Clock::time_point a, Clock::time_point b) {
     return std::chrono::duration<double>(b - a).count();
 }
 
-std::string again_text(const Total& t) {
-    if (t.wanted == 0 || t.pixels <= t.wanted) return "";
+// The share of pixels that were computed more than once.
+std::string again_text(int64_t pixels, int64_t wanted) {
+    if (wanted == 0 || pixels <= wanted) return "";
     return fmt::format("{:.0f} %",
-                       100.0 * static_cast<double>(t.pixels - t.wanted) / static_cast<double>(t.wanted));
+                       100.0 * static_cast<double>(pixels - wanted) / static_cast<double>(wanted));
+}
+
+std::string megabytes_text(int64_t bytes) {
+    return bytes == 0 ? "" : fmt::format("{:.1f}", static_cast<double>(bytes) / (1 << 20));
 }
 
 // A JSON string: titles hold quotes of graphs' ids only, file names may hold anything.
@@ -54,62 +54,66 @@ const char* activity_name(Activity activity) {
     return "sync";
 }
 
-void Recorder::add(Event event) {
+Recorder::Recorder(std::string trace) : name_(std::move(trace)), trace_(name_) {
+    trace_ << "{\"traceEvents\": [\n";
+    if (!trace_) fail(ErrorKind::kOutput, "cannot write the profile " + in_quotes(name_));
+}
+
+void Recorder::add(const Event& e) {
+    const double seconds = seconds_between(e.begin, e.end);
     const std::lock_guard lock(mutex_);
-    events_.push_back(std::move(event));
+    Total& t = totals_[{e.sweep, e.activity, e.title}];
+    ++t.calls;
+    t.pixels += e.pixels;
+    t.wanted += e.wanted;
+    t.bytes += e.bytes;
+    t.seconds += seconds;
+    trace_ << fmt::format(
+        "{{\"ph\": \"X\", \"pid\": {}, \"tid\": {}, \"ts\": {:.1f}, \"dur\": {:.1f}, \"cat\": \"{}\", "
+        "\"name\": {}}},\n",
+        e.frame, e.worker, 1e6 * seconds_between(start_, e.begin), 1e6 * seconds, activity_name(e.activity),
+        json_string(fmt::format("{} {}", activity_name(e.activity), e.title)));
+}
+
+void Recorder::finish() {
+    const std::lock_guard lock(mutex_);
+    // An entry of no length ends the list, as JSON allows no comma there.
+    trace_ << "{\"ph\": \"i\", \"pid\": 0, \"tid\": 0, \"ts\": "
+           << fmt::format("{:.1f}", 1e6 * seconds_between(start_, Clock::now()))
+           << ", \"name\": \"end\"}\n]}\n"
+           << std::flush;
+    if (!trace_) fail(ErrorKind::kOutput, "cannot write the profile " + in_quotes(name_));
 }
 
 std::string Recorder::table() const {
     const std::lock_guard lock(mutex_);
-    std::map<Key, Total> totals;
     double all = 0;
-    for (const Event& e : events_) {
-        Total& t = totals[{e.sweep, e.activity, e.title}];
-        ++t.calls;
-        t.pixels += e.pixels;
-        t.wanted += e.wanted;
-        t.seconds += seconds_between(e.begin, e.end);
-        all += seconds_between(e.begin, e.end);
-    }
-    std::vector<std::pair<Key, Total>> rows(totals.begin(), totals.end());
+    for (const auto& [key, t] : totals_) all += t.seconds;
+    std::vector<std::pair<Key, Total>> rows(totals_.begin(), totals_.end());
     std::ranges::stable_sort(
         rows, [](const auto& a, const auto& b) { return a.second.seconds > b.second.seconds; });
-    std::string out = fmt::format("{:>9}  {:>6}  {:>8}  {:>8}  {:>7}  {}\n", "ms", "share", "calls",
-                                  "Mpixels", "again", "what");
+    std::string out = fmt::format("{:>9}  {:>6}  {:>8}  {:>8}  {:>7}  {:>8}  {}\n", "ms", "share", "calls",
+                                  "Mpixels", "again", "MiB", "what");
     for (const auto& [key, t] : rows)
-        out += fmt::format("{:9.1f}  {:4.1f} %  {:8}  {:8.1f}  {:>7}  {} {}, sweep {}\n", 1000 * t.seconds,
-                           100 * t.seconds / all, t.calls, static_cast<double>(t.pixels) / 1e6, again_text(t),
-                           activity_name(std::get<1>(key)), std::get<2>(key), std::get<0>(key) + 1);
+        out +=
+            fmt::format("{:9.1f}  {:4.1f} %  {:8}  {:8.1f}  {:>7}  {:>8}  {} {}, sweep {}\n",
+                        1000 * t.seconds, 100 * t.seconds / all, t.calls, static_cast<double>(t.pixels) / 1e6,
+                        again_text(t.pixels, t.wanted), megabytes_text(t.bytes),
+                        activity_name(std::get<1>(key)), std::get<2>(key), std::get<0>(key) + 1);
     return out + fmt::format("{:9.1f}  in all, over all threads\n", 1000 * all);
-}
-
-std::string Recorder::chrome_trace() const {
-    const std::lock_guard lock(mutex_);
-    const auto micros = [&](Clock::time_point t) { return 1e6 * seconds_between(start_, t); };
-    std::string out = "{\"traceEvents\": [\n";
-    for (std::size_t i = 0; i < events_.size(); ++i) {
-        const Event& e = events_[i];
-        out += fmt::format(
-            "{{\"ph\": \"X\", \"pid\": {}, \"tid\": {}, \"ts\": {:.1f}, \"dur\": {:.1f}, \"cat\": \"{}\", "
-            "\"name\": {}}}{}\n",
-            e.frame, e.worker, micros(e.begin), 1e6 * seconds_between(e.begin, e.end),
-            activity_name(e.activity), json_string(fmt::format("{} {}", activity_name(e.activity), e.title)),
-            i + 1 == events_.size() ? "" : ",");
-    }
-    return out + "]}\n";
 }
 
 Timed::Timed(Recorder* recorder, Activity activity, const std::string& title, int frame, int sweep,
              int worker)
     : recorder_(recorder) {
     if (!recorder_) return;
-    event_ = {activity, title, frame, sweep, worker, Clock::now(), {}, 0, 0};
+    event_ = {activity, title, frame, sweep, worker, Clock::now(), {}, 0, 0, 0};
 }
 
 Timed::~Timed() {
     if (!recorder_) return;
     event_.end = Clock::now();
-    recorder_->add(std::move(event_));
+    recorder_->add(event_);
 }
 
 }  // namespace keyline

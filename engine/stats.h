@@ -4,9 +4,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <fstream>
+#include <map>
 #include <mutex>
 #include <string>
-#include <vector>
+#include <tuple>
 
 namespace keyline {
 
@@ -24,24 +26,37 @@ struct Event {
     Clock::time_point begin, end;
     int64_t pixels = 0;  // that it computed, decoded or encoded
     int64_t wanted = 0;  // of those, inside the tile: the others are its neighbours' too
+    int64_t bytes = 0;   // of samples that it decoded or encoded
 };
 
-// Collects the events of a render: where the time went.  Safe from any thread.
+// Where the time of a render went: every event goes into a file as it comes, which is then a trace that
+// chrome://tracing and Perfetto show; their sums are kept.  Safe from any thread.
 class Recorder {
 public:
-    void add(Event event);
+    // Throws Failure (kOutput) where the file can't be made.
+    explicit Recorder(std::string trace);
+
+    void add(const Event& event);
+
+    // Ends the trace.  Throws Failure (kOutput) where it could not be written whole.
+    void finish();
 
     // A line a node and activity of each sweep, the costliest first: time over all threads, share, pixels,
-    // and the share of pixels computed more than once.
+    // the share of pixels computed more than once, and the samples' bytes.
     std::string table() const;
 
-    // The events as a trace that chrome://tracing and Perfetto show: JSON.
-    std::string chrome_trace() const;
-
 private:
+    struct Total {
+        int64_t calls = 0, pixels = 0, wanted = 0, bytes = 0;
+        double seconds = 0;
+    };
+    using Key = std::tuple<int, Activity, std::string>;  // sweep, activity, title
+
     mutable std::mutex mutex_;
-    std::vector<Event> events_;
-    Clock::time_point start_ = Clock::now();
+    std::map<Key, Total> totals_;
+    const std::string name_;
+    std::ofstream trace_;
+    const Clock::time_point start_ = Clock::now();
 };
 
 // Records the time from here to the end of the scope; does nothing without a recorder.
@@ -56,6 +71,7 @@ public:
         event_.pixels = computed;
         event_.wanted = wanted;
     }
+    void bytes(int64_t samples) { event_.bytes = samples; }
 
 private:
     Recorder* recorder_;

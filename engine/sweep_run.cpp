@@ -184,6 +184,7 @@ void SweepRun::run_decode(const Job& job, int worker) const {
     Timed time(data_.recorder, Activity::kRead, op.title, plan_.frame.frame, index_, worker);
     const auto pixels = bands.rect(job.row).area() * static_cast<int64_t>(store.values.size());
     time.pixels(pixels, pixels);
+    time.bytes(static_cast<int64_t>(store.row_bytes()) * bands.rect(job.row).height());
     std::vector<Plane> planes(op.source->header().groups[store.group].channels.size());
     for (std::size_t i = 0; i < store.values.size(); ++i)
         planes[op.source_channel[index(store.values[i].output)]] = bands.plane(job.row, i);
@@ -224,6 +225,10 @@ void SweepRun::run_encode(const Job& job, int worker) {
                index_, worker);
     const auto pixels = bands.rect(band).area() * static_cast<int64_t>(bands.types().size());
     time.pixels(pixels, pixels);
+    int64_t sample_bytes = 0;
+    for (const SampleType type : bands.types())
+        sample_bytes += bands.rect(band).area() * static_cast<int64_t>(sample_size(type));
+    time.bytes(sample_bytes);
     std::vector<Plane> planes;
     if (!bands.allocated(band)) bands.allocate(band, true);
     for (std::size_t i = 0; i < bands.types().size(); ++i) planes.push_back(bands.plane(band, i));

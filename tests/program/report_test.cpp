@@ -48,6 +48,30 @@ TEST_F(Report, CheckLooksAtAllFramesGiven) {
     EXPECT_THAT(run.err, HasSubstr("in.0008.exr: no such file; on disk are frames 7, 9"));
 }
 
+TEST_F(Report, AProfileIsATraceAndATable) {
+    sequence_graph();
+    const Outcome run =
+        keyline({"render", "graph.json", "--frames", "7", "--tile", "64", "--profile", "trace.json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    for (const char* text :
+         {"decode node 'r' (read), sweep 1", "compute node 'slope' (gradient), sweep 1",
+          "encode node 'out' (write), sweep 2", "MiB read from files", "MiB of memory at most"})
+        EXPECT_THAT(run.out, HasSubstr(text));
+    int tiles = 0;
+    const Json trace = Json::parse(read(folder() / "trace.json"));
+    for (const Json& event : trace.at("traceEvents"))
+        tiles += event.at("name") == "compute node 'slope' (gradient)" ? 1 : 0;
+    EXPECT_EQ(tiles, 40);
+}
+
+TEST_F(Report, AProfileThatCantBeWrittenIsAnErrorBeforeTheRender) {
+    sequence_graph();
+    const Outcome run = keyline({"render", "graph.json", "--frames", "7", "--profile", "none/trace.json"});
+    EXPECT_EQ(run.status, 4);
+    EXPECT_THAT(run.err, HasSubstr("none/trace.json"));
+    EXPECT_FALSE(exists("out.0007.exr"));
+}
+
 TEST_F(Report, PlanTellsSweepsWithoutWriting) {
     sequence_graph();
     const Outcome run = keyline({"plan", "graph.json", "--tile", "64", "--threads", "3"});
