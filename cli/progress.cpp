@@ -93,6 +93,7 @@ void Progress::frame_ended(int frame, FrameOutcome outcome) {
 
 void Progress::end() {
     clear_bar();
+    const double seconds = seconds_since(start_);
     if (mode_ == ProgressMode::kJson)
         print_message(JsonWriter()
                           .begin_object()
@@ -100,12 +101,15 @@ void Progress::end() {
                           .field("done", done_)
                           .field("skipped", skipped_)
                           .field("failed", failed_)
-                          .field("seconds", seconds_since(start_))
+                          .field("seconds", seconds)
                           .end_object()
                           .text());
     else if (mode_ != ProgressMode::kNone && ended() > 0 && frames_ > 1)
-        print_message(fmt::format("{} of {} frames done, {} skipped, {} failed, in {}", done_, frames_,
-                                  skipped_, failed_, seconds_text(seconds_since(start_))));
+        print_message(fmt::format(
+            "{} of {} frames done, {} skipped, {} failed, in {}{}", done_, frames_, skipped_, failed_,
+            seconds_text(seconds),
+            done_ > 0 ? fmt::format(", {} a frame", seconds_text(seconds / static_cast<double>(done_)))
+                      : ""));
 }
 
 void Progress::warning(const Error& warning) { print("warning", warning.warning_text()); }

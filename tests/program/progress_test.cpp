@@ -59,6 +59,7 @@ TEST_F(Progress, TheBarIsDrawnAnewAndTakenAway) {
     EXPECT_THAT(run.err, HasSubstr("\r\x1b[K[==========     "));
     EXPECT_THAT(run.err, HasSubstr("3 of 3, frame 3 done"));
     EXPECT_THAT(run.err, HasSubstr("\r\x1b[K3 of 3 frames done"));
+    EXPECT_THAT(run.err, HasSubstr(" s a frame"));
 }
 
 TEST_F(Progress, JsonIsAnObjectALine) {
