@@ -84,7 +84,8 @@ private:
 // Between two pixels that show different objects there is an edge; it lies where their coverage in both
 // pixels together says, and a line is drawn along it.
 struct IdEdge {
-    static constexpr Info info{"idedge", "Lines between objects, from their ids or a Cryptomatte."};
+    static constexpr Info info{
+        "idedge", "Lines between objects, from their ids or a Cryptomatte, that know whose they are."};
 
     struct Params {
         Input in;
@@ -93,20 +94,32 @@ struct IdEdge {
         std::optional<Input> depth;
 
         static constexpr auto fields = declare(
-            input(&Params::in, "in", "One channel of ids, or an image with a Cryptomatte."),
+            input(
+                &Params::in, "in",
+                "One channel of ids, or an image with a Cryptomatte; the lines then are a Cryptomatte of the "
+                "same name, so that a cryptomatte node after this one picks lines by their objects' names."),
             field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one."),
             field(&Params::side, "side", "Which side of the edge the line is on."),
             input(&Params::depth, "depth",
                   "Where objects are nearer, smaller; without it, or at the same depth, the larger id is.",
                   matte("Z")));
     };
-    static constexpr std::array outputs{"edge"};
+    // The owner is the id of the nearer object.
+    static constexpr std::array outputs{"edge", "owner"};
 
     explicit IdEdge(const Params& p) : params(p) {}
 
     Stream expand(Builder& builder) const;
 
     const Params params;
+
+private:
+    // One object a pixel: the line's owner.
+    static void add_cryptomatte(Stream& stream, const std::string& name, std::span<const ValueRef> line) {
+        const std::string level = name.empty() ? "" : name + "00.";
+        const std::array ranks{line[1], line[0], line[2], line[2]};
+        for (std::size_t i = 0; i < ranks.size(); ++i) stream.set(level + "rgba"[i], ranks[i]);
+    }
 };
 
 class EdgeLine final : public Operation {
@@ -123,36 +136,47 @@ public:
         const Rect& rect = out[0].rect;
         for (int y = rect.y0; y < rect.y1; ++y)
             for (int x = rect.x0; x < rect.x1; ++x) {
-                float line = 0;
-                for (const Step& step : kSteps)
-                    line = std::max(line, along(objects, depth.empty() ? nullptr : depth.data(), x, y, step));
-                *out[0].at(x, y) = line;
+                Line line;
+                for (const Step& step : kSteps) {
+                    const Line other = along(objects, depth.empty() ? nullptr : depth.data(), x, y, step);
+                    if (other.covers > line.covers) line = other;
+                }
+                *out[0].at(x, y) = line.covers;
+                *out[1].at(x, y) = std::bit_cast<float>(line.owner);
+                *out[2].at(x, y) = 0;
             }
     }
 
 private:
-    // What lines at the edges before and behind the next pixel in one direction cover of this one.
-    float along(const Objects& objects, const View* depth, int x, int y, const Step& step) const {
+    struct Line {
+        float covers = 0;    // of the pixel
+        uint32_t owner = 0;  // the object that it belongs to
+    };
+
+    // The line at the edge before or behind the next pixel in one direction, whichever covers more of this
+    // one.
+    Line along(const Objects& objects, const View* depth, int x, int y, const Step& step) const {
         const int x1 = x + step.x, y1 = y + step.y, x2 = x1 + step.x, y2 = y1 + step.y;
-        if (!objects.has(x1, y1)) return 0;
-        const float near = between(objects, depth, {x, y}, {x1, y1}, 0);
-        const float far = objects.has(x2, y2) ? between(objects, depth, {x1, y1}, {x2, y2}, -1) : 0;
-        return std::max(near, far);
+        if (!objects.has(x1, y1)) return {};
+        const Line near = between(objects, depth, {x, y}, {x1, y1}, 0);
+        const Line far = objects.has(x2, y2) ? between(objects, depth, {x1, y1}, {x2, y2}, -1) : Line{};
+        return far.covers > near.covers ? far : near;
     }
 
     // The line at the edge between the centres of two neighbours, over the pixel that begins at `start`,
     // counted from where p begins towards q.
-    float between(const Objects& objects, const View* depth, Step p, Step q, float start) const {
+    Line between(const Objects& objects, const View* depth, Step p, Step q, float start) const {
         const uint32_t a = objects.main(p.x, p.y), b = objects.main(q.x, q.y);
-        if (a == b) return 0;
+        if (a == b) return {};
         const float of_a = objects.coverage(p.x, p.y, a) + objects.coverage(q.x, q.y, a);
         const float of_b = objects.coverage(p.x, p.y, b) + objects.coverage(q.x, q.y, b);
         const float edge = 2 * of_a / (of_a + of_b);
-        const bool on_p = side_ == Side::kBoth || (side_ == Side::kInner) == is_nearer(depth, p, q, a, b);
+        const bool of_p = is_nearer(depth, p, q, a, b);
+        const bool on_p = side_ == Side::kBoth || (side_ == Side::kInner) == of_p;
         const bool on_q = side_ == Side::kBoth || !on_p;
         const float from = std::max(start, edge - (on_p ? 1.0F : 0.0F));
         const float to = std::min(start + 1, edge + (on_q ? 1.0F : 0.0F));
-        return to > from ? to - from : 0;
+        return to > from ? Line{to - from, of_p ? a : b} : Line{};
     }
 
     static bool is_nearer(const View* depth, Step p, Step q, uint32_t a, uint32_t b) {
@@ -172,16 +196,19 @@ Stream IdEdge::expand(Builder& builder) const {
     Stream stream = builder.input(params.in);
     std::vector<Link> links(2);
     links[0].window = stream.window;
-    links[0].values = stream.channels.size() == 1 ? std::vector{stream.channels[0].value}
-                                                  : find_cryptomatte(stream, params.layer).values();
+    std::optional<Cryptomatte> crypto;
+    if (stream.channels.size() > 1) crypto = find_cryptomatte(stream, params.layer);
+    links[0].values = crypto ? crypto->values() : std::vector{stream.channels[0].value};
     if (params.depth) {
         const Stream depth = builder.input(*params.depth);
         links[1] = {depth.window, take_channels(depth, matte("Z"))};
     }
-    const auto value =
-        builder.add(std::make_shared<const EdgeLine>(params.side), std::move(links), stream.window, 1);
+    const auto line =
+        builder.add(std::make_shared<const EdgeLine>(params.side), std::move(links), stream.window, 3);
     stream.channels.clear();
-    stream.set(outputs[0], value.front());
+    stream.set(outputs[0], line[0]);
+    stream.set(outputs[1], line[1]);
+    if (crypto) add_cryptomatte(stream, crypto->name, line);
     return stream;
 }
 

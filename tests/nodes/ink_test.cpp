@@ -23,6 +23,15 @@ TEST(Ink, IsBlackAndOpaqueByDefault) {
     EXPECT_EQ(out.at("A", 0, 0), 1);
 }
 
+TEST(Ink, IsTintedByAnImage) {
+    const Image albedo = Image({0, 0, 2, 1}, {"R", "G", "B"}).fill("R", [](int x, int) { return 1.0 + x; });
+    const Image out = run("ink", {{"color", {0.5, 0.5, 0.5}}},
+                          std::map<std::string, Image>{{"in", ascii({"12"})}, {"tint", albedo}});
+    EXPECT_EQ(out.channel("R").samples, (std::vector<float>{0.5F, 2}));
+    EXPECT_EQ(out.channel("G").samples, (std::vector<float>{0, 0}));
+    EXPECT_EQ(out.channel("A").samples, (std::vector<float>{1, 2}));
+}
+
 TEST(Ink, AColourInHexIsSrgb) {
     const Image out = run("ink", {{"color", "#ff8000"}}, ascii({"1"}));
     EXPECT_FLOAT_EQ(out.at("R", 0, 0), 1);
