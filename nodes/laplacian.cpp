@@ -10,7 +10,8 @@ namespace keyline {
 
 namespace {
 
-// The second difference: what lies beyond the data window repeats its edge.
+// The second difference, of pairs of opposite neighbours.  Where one of a pair lies beyond the data window,
+// the image goes on as straight as it came: a repeated edge would bend every slope there.
 struct Laplacian {
     static constexpr Info info{"laplacian", "How much the neighbours of a pixel are above it, summed."};
 
@@ -34,14 +35,16 @@ struct Laplacian {
 
     void compute(const View& in, const MutView& out, Scratch&) const {
         const Rect& rect = out.rect;
-        const int left = in.rect.x0 < rect.x0 ? -1 : 0, right = in.rect.x1 > rect.x1 ? 1 : 0;
+        const simd::Margin beside = simd::margin_x(in, rect);
         const int n = rect.width();
         for (int y = rect.y0; y < rect.y1; ++y) {
+            const simd::Margin over = simd::margin_y(in, y);
+            const bool down = over.before > 0 && over.after > 0;
             const simd::Rows3 rows = simd::rows_around(in, rect.x0, y);
             float* to = out.row(y);
-            for (int x = 1; x < n - 1; ++x) to[x] = at(rows, x, -1, 1);
-            to[0] = at(rows, 0, left, n > 1 ? 1 : right);
-            if (n > 1) to[n - 1] = at(rows, n - 1, -1, right);
+            for (int x = 1; x < n - 1; ++x) to[x] = bend(rows, x, true, down);
+            to[0] = bend(rows, 0, beside.before > 0 && (n > 1 || beside.after > 0), down);
+            if (n > 1) to[n - 1] = bend(rows, n - 1, beside.after > 0, down);
         }
     }
 
@@ -49,13 +52,16 @@ struct Laplacian {
 
 private:
     // In double, where the sum of floats as near each other as neighbours are is exact: on a slope it is 0.
-    float at(const simd::Rows3& rows, int x, int before, int after) const {
-        const auto sum = [&](const float* row) { return double{row[x + before]} + double{row[x + after]}; };
-        const double cross = sum(rows.at) + (double{rows.above[x]} + double{rows.below[x]});
-        const double centre = rows.at[x];
-        const double all =
-            diagonals ? cross + (sum(rows.above) + sum(rows.below)) - 8 * centre : cross - 4 * centre;
-        return with_one_nan(static_cast<float>(all));
+    // `across`, `down`: whether there are neighbours on both sides.
+    float bend(const simd::Rows3& rows, int x, bool across, bool down) const {
+        const double twice = 2 * double{rows.at[x]};
+        const auto pair = [&](float a, float b) { return double{a} + double{b} - twice; };
+        double sum = 0;
+        if (across) sum += pair(rows.at[x - 1], rows.at[x + 1]);
+        if (down) sum += pair(rows.above[x], rows.below[x]);
+        if (diagonals && across && down)
+            sum += pair(rows.above[x - 1], rows.below[x + 1]) + pair(rows.above[x + 1], rows.below[x - 1]);
+        return with_one_nan(static_cast<float>(sum));
     }
 };
 

@@ -43,6 +43,15 @@ std::vector<const NodeType*> computing_types() {
     return out;
 }
 
+// What can be known of images without their samples, which would be copied a thousand times.
+Sequences without_samples(const Sequences& inputs) {
+    Sequences out = inputs;
+    for (auto& [id, images] : out)
+        for (Image& image : images)
+            for (Image::Channel& c : image.channels) c.samples.clear();
+    return out;
+}
+
 // Nodes that enlarge, one after the other, would make images that take minutes.
 bool small(const ResolvedFrame& frame) {
     return std::ranges::all_of(frame.ops, [](const Op& op) {
@@ -78,13 +87,13 @@ void add_node(RandomGraph& graph, const NodeType& type, Draw& draw) {
 RandomGraph random_graph(unsigned seed) {
     static const std::vector<const NodeType*> types = computing_types();
     Draw draw(seed);
-    RandomGraph graph;
-    for (const char* id : {"a", "b"}) {
-        graph.ids.emplace_back(id);
-        for (int frame = 0; frame < 3; ++frame) graph.inputs[id].push_back(layered_image(draw));
-    }
+    Sequences inputs;
+    for (const char* id : {"a", "b"})
+        for (int frame = 0; frame < 3; ++frame) inputs[id].push_back(layered_image(draw));
+    RandomGraph graph{{}, {"a", "b"}, {}, without_samples(inputs)};
     for (int n = draw.whole(4, 9); n > 0; --n) add_node(graph, *draw.of(types), draw);
     graph.outputs = {graph.ids.back(), draw.of(graph.ids), draw.of(graph.ids)};
+    graph.inputs = std::move(inputs);
     return graph;
 }
 
