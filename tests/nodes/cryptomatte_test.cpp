@@ -129,6 +129,28 @@ TEST(Cryptomatte, AgreesWithTheDefinitionOnARender) {
     EXPECT_GT(most, 0.99F);
 }
 
+// Where an object covers a pixel whole, the renderer's pass of object numbers says the same.
+TEST(Cryptomatte, AgreesWithTheIdPassWhereCoverageIsWhole) {
+    const Image file = read_exr(KEYLINE_PASSES);
+    const Image::Channel& numbers = file.channel("ViewLayer.IndexOB.X");
+    const std::map<std::string, float> objects{{"floor", 1}, {"wall", 2}, {"door", 3},    {"crate", 4},
+                                               {"ball", 5},  {"ring", 6}, {"suzanne", 7}, {"cone", 22}};
+    for (const auto& [name, number] : objects) {
+        const Json nodes{{"r", {{"type", "read"}, {"file", KEYLINE_PASSES}}},
+                         {"m", {{"type", "cryptomatte"}, {"in", "r"}, {"objects", {name}}}}};
+        const Image matte = run_graph(nodes, "m", std::map<std::string, Image>{});
+        const Image::Channel& covered = matte.channel("matte");
+        int whole = 0;
+        for (std::size_t i = 0; i < numbers.samples.size(); ++i) {
+            const bool is_whole = covered.samples[i] > 0.9999F, is_its = numbers.samples[i] == number;
+            ASSERT_TRUE(is_its || !is_whole) << name << ' ' << i;
+            ASSERT_TRUE(covered.samples[i] > 0 || !is_its) << name << ' ' << i;
+            whole += is_whole ? 1 : 0;
+        }
+        EXPECT_GT(whole, 20) << name;
+    }
+}
+
 TEST(CryptomatteManifest, ReadsEscapes) {
     const auto manifest =
         CryptomatteManifest::parse("{ \"a\\\"b\\u00e9\\ud83d\\ude00\" : \"0000ff00\",\n\"/x\":\"1\"}");
