@@ -5,6 +5,7 @@
 #include "engine/resolve.h"
 #include "tests/support/draw.h"
 #include "tests/support/interpret.h"
+#include "tests/support/targets.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -116,6 +117,10 @@ protected:
 TEST_P(RandomGraphs, GiveTheSameBytesForEveryTileAndThread) {
     for (const int tile : {0, 13, 64, 500})
         for (const int threads : {1, 2, 5}) expect_same({threads, tile, 0});
+}
+
+TEST_P(RandomGraphs, GiveTheSameBytesOnEveryInstructionSet) {
+    test::on_every_target([this] { expect_same({2, 64, 0}); });
 }
 
 // From what the planner likes best down to the least that it can do, each plan that there is between.
