@@ -40,7 +40,7 @@ set y2label "MiB at most"
 set y2tics
 set y2range [0:*]
 set xtics 1
-set key right top noreverse Right
+set key left bottom
 plot series("threads", keyline) using 3:4 ls 1 title keyline, \
      series("threads", openexr) using 3:4 ls 2 title openexr, \
      series("threads", keyline) using 3:5 axes x1y2 ls 3 title "memory of Keyline"
@@ -52,4 +52,4 @@ set xlabel "sigma of the blur, pixels"
 set ylabel "seconds, 4K"
 set logscale x 2
 set xtics auto
-plot series("sigma", keyline) using 3:4 ls 1 title "the whole job"
+plot series("sigma", keyline) using 3:4 ls 1 notitle

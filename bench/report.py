@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 from runs import Runs
-from targets import HD, KEYLINE, OPENEXR, targets
+from targets import KEYLINE, OPENEXR, targets
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"

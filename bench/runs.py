@@ -34,8 +34,11 @@ class Runs:
     def has(self, *key):
         return key in self.series
 
+    def all_seconds(self, *key):
+        return [seconds for seconds, _ in self.series[key].values()]
+
     def seconds(self, *key):
-        return median(s for s, _ in self.series[key].values())
+        return median(self.all_seconds(*key))
 
     def mib(self, *key):
         return max(m for _, m in self.series[key].values())

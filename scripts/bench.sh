@@ -20,16 +20,14 @@ cmake --preset release -B $build -DKEYLINE_TESTS=OFF -DKEYLINE_BENCHMARKS=ON >/d
 cmake --build $build
 
 small=graphs/plates/street.0001.exr
+rm -rf $results
 mkdir -p $results docs/images
-rm -f $results/runs.csv $results/kernels.json
 if [ -z "$plate" ]; then
   plate=$results/hd.exr
   $build/bin/bench_mosaic $small 4 "$plate"
 fi
-large=$results/4k.exr
-$build/bin/bench_mosaic "$plate" 2 $large
-
 $build/bin/bench_jobs "$plate" $small $results $results/runs.csv "$rounds"
+large=$results/plate-2x2-of-$(basename "$plate" .exr).exr  # that bench_jobs made
 if [ -x $build/bin/bench_opencv ]; then
   $build/bin/bench_opencv $large $results/runs.csv $((4 * rounds + 1))
 else
