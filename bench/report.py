@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints what was measured as Markdown and puts it into docs/performance.md, between its two markers:
 
-    report.py RUNS.csv KERNELS.json KEYLINE
+    report.py RUNS.csv KERNELS.json KEYLINE PLATE.exr
 """
 
 import os
@@ -32,7 +32,7 @@ def value_in(file, key):
     return re.search(rf"^{key}\s*[:=]\s*\"?([^\"\n]*)", Path(file).read_text(), re.M).group(1).strip()
 
 
-def machine(keyline):
+def circumstances(keyline, plate):
     versions = [line.split() for line in output(keyline, "--version").splitlines()]
     peers = [f"{name} {version}" for name in PEERS
              if (version := output("dpkg-query", "-W", "-f", "${source:Upstream-Version}", name))]
@@ -42,6 +42,7 @@ def machine(keyline):
         f"{value_in('/etc/os-release', 'PRETTY_NAME')}, Linux {platform.release()}",
         f"- {output('c++', '--version').splitlines()[0]}; " + ", ".join(" ".join(v) for v in versions),
         "- compared with " + ", ".join(peers) if peers else "- no other program is installed",
+        f"- the HD plate: {Path(plate).name}, {Path(plate).stat().st_size / 1e6:.0f} MB; 4K and 8K are mosaics of it",
     ]
 
 
@@ -94,12 +95,12 @@ def kernel_table(runs):
     threads = sorted({x for _, _, x in runs.of("kernel")})
     names = list(dict.fromkeys(what for _, what, _ in runs.of("kernel")))
     return table(["nodes on a picture in memory, 4K"] + [f"{t:g} thread{'s' if t > 1 else ''}" for t in threads],
-                 [[n] + [seconds(runs.seconds("kernel", n, t)) if runs.has("kernel", n, t) else "–" for t in threads]
-                  for n in names])
+                 [[name] + [seconds(runs.seconds("kernel", name, t)) if runs.has("kernel", name, t) else "–"
+                            for t in threads] for name in names])
 
 
-def report(runs, keyline):
-    parts = [machine(keyline),
+def report(runs, keyline, plate):
+    parts = [circumstances(keyline, plate),
              table(["#", "what", "measured", "least – most", "target", ""], [t.row() for t in targets(runs)]),
              job_table(runs), threads_table(runs), size_table(runs), sigma_table(runs), small_table(runs),
              kernel_table(runs)]
@@ -114,10 +115,10 @@ def replace_measured(file, text):
     file.write_text(f"{before}{BEGIN}\n\n{text}\n\n{END}{rest.split(END)[1]}")
 
 
-def main(runs_csv, kernels_json, keyline):
+def main(runs_csv, kernels_json, keyline, plate):
     runs = Runs(runs_csv, kernels_json)
     runs.write_medians(DOCS / "performance.csv")
-    text = report(runs, keyline)
+    text = report(runs, keyline, plate)
     replace_measured(DOCS / "performance.md", text)
     print(text)
 

@@ -23,7 +23,7 @@ small=graphs/plates/street.0001.exr
 rm -rf $results
 mkdir -p $results docs/images
 if [ -z "$plate" ]; then
-  plate=$results/hd.exr
+  plate=$results/street-4x4.exr
   $build/bin/bench_mosaic $small 4 "$plate"
 fi
 $build/bin/bench_jobs "$plate" $small $results $results/runs.csv "$rounds"
@@ -36,6 +36,6 @@ fi
 $build/bin/bench_kernels $large --benchmark_min_time=0.1 --benchmark_repetitions="$rounds" \
   --benchmark_enable_random_interleaving=true --benchmark_out=$results/kernels.json >/dev/null
 
-python3 bench/report.py $results/runs.csv $results/kernels.json $build/bin/keyline
+python3 bench/report.py $results/runs.csv $results/kernels.json $build/bin/keyline "$plate"
 gnuplot bench/plots.gp
 rm -f $results/*.exr $results/*.v
