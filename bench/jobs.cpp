@@ -1,20 +1,23 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whole jobs as whole processes, in turn with OpenEXR's own read + write of the same channels:
-//     bench_jobs PLATE.exr [RUNS]
-// PLATE is an HD frame with a Combined layer.  Prints a Markdown table.
+// Whole jobs as whole processes, in turn:  bench_jobs HD.exr SMALL.exr FOLDER RUNS.csv ROUNDS
+// HD is a frame with a Combined layer, of which 4K and 8K plates are made in FOLDER (and used again), SMALL a
+// small one.  Every run goes to RUNS.csv; report.py makes tables of them.
 
+#include "bench/commands.h"
 #include "bench/process.h"
+#include "bench/run_log.h"
 
-#include <algorithm>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iostream>
+#include <set>
 #include <string>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 namespace keyline::bench {
@@ -22,88 +25,161 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kBin = fs::read_symlink("/proc/self/exe").parent_path();
-const fs::path kGraph = kBin.parent_path().parent_path().parent_path() / "bench" / "lines.json";
+constexpr int kFrames = 12;
+constexpr int kShortRounds = 5;  // of what takes milliseconds, for one of the others
 
 struct Job {
     std::string name;
-    std::vector<std::string> command;
-    std::vector<Measured> runs;
+    double x;
+    Command command;
 };
 
-// Runs the jobs in turn, so that a machine that slows down slows all of them.
-void run_in_turn(std::vector<Job>& jobs, int runs) {
-    for (int i = 0; i < runs; ++i)
-        for (Job& job : jobs) job.runs.push_back(run_process(job.command));
+Plate open_plate(const fs::path& file) {
+    const auto window = Imf::InputFile(file.c_str()).header().dataWindow();
+    return {file, window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
 }
 
-std::vector<std::string> keyline_job(const fs::path& plate, const fs::path& out, int threads) {
-    return {kBin / "keyline",
-            "render",
-            kGraph,
-            "--var",
-            "plate=" + plate.string(),
-            "--var",
-            "out=" + out.string(),
-            "--threads",
-            std::to_string(threads),
-            "--progress",
-            "none"};
-}
+class Suite {
+public:
+    Suite(const fs::path& hd, const fs::path& small, fs::path folder, const fs::path& log, int rounds)
+        : folder_(std::move(folder)),
+          log_(log),
+          rounds_(rounds),
+          threads_(static_cast<int>(std::thread::hardware_concurrency())),
+          hd_(open_plate(fs::absolute(hd))),
+          small_(open_plate(fs::absolute(small))) {
+        fs::create_directories(folder_);
+    }
 
-std::vector<std::string> copy_job(const fs::path& plate, const fs::path& out, int threads) {
-    return {kBin / "bench_exr_copy", plate, "ViewLayer.Combined", out, std::to_string(threads)};
-}
+    void run() {
+        check();
+        sequence("HD", hd_);
+        sequence("small", small_);
+        const Plate uhd = large(2);
+        job(uhd);
+        threads(uhd);
+        sigma(uhd);
+        sizes({small_, hd_, uhd, large(3), large(4)});
+    }
 
-fs::path mosaic(const fs::path& plate, int n, const fs::path& folder) {
-    fs::path out = folder / fmt::format("plate-{}x{}.exr", n, n);
-    run_process({kBin / "bench_mosaic", plate, std::to_string(n), out});
-    return out;
-}
+private:
+    fs::path out(const std::string& name) const { return folder_ / (name + ".exr"); }
 
-void print_row(const Job& job, const Measured& base) {
-    const Measured m = summary(job.runs);
-    std::cout << fmt::format("| {} | {:.3f} s | {:.2f} | {} MiB |\n", job.name, m.seconds,
-                             m.seconds / base.seconds, m.peak_bytes >> 20);
-}
+    Plate large(int n) const {
+        const fs::path file = out(fmt::format("plate-{}x{}-of-{}", n, n, hd_.file.stem().string()));
+        if (!fs::exists(file)) {
+            const fs::path unfinished = out("unfinished");
+            run_process(mosaic(hd_.file, n, unfinished));
+            fs::rename(unfinished, file);
+        }
+        return open_plate(file);
+    }
 
-void compare(const std::string& title, const fs::path& plate, const fs::path& folder, int runs) {
-    const int threads = static_cast<int>(std::thread::hardware_concurrency());
-    std::vector<Job> jobs{
-        {fmt::format("OpenEXR read + write, {} threads", threads),
-         copy_job(plate, folder / "copy.exr", threads),
-         {}},
-        {fmt::format("Keyline, {} threads", threads), keyline_job(plate, folder / "lines.exr", threads), {}},
-        {"Keyline, 1 thread", keyline_job(plate, folder / "lines1.exr", 1), {}}};
-    run_in_turn(jobs, runs);
-    const Measured base = summary(jobs[0].runs);
-    std::cout << fmt::format("\n| {} | time | against OpenEXR | peak memory |\n| --- | --- | --- | --- |\n",
-                             title);
-    for (const Job& job : jobs) print_row(job, base);
-}
+    // In turn, so that a machine that slows down slows all of them; once before without counting, so that
+    // what they read is in memory.
+    void in_turn(const std::string& experiment, const std::vector<Job>& jobs, int rounds) {
+        std::cerr << experiment << '\n';
+        for (int round = -1; round < rounds; ++round)
+            for (const Job& j : jobs) {
+                const Measured run = run_process(j.command);
+                if (round >= 0) log_.add(experiment, j.name, j.x, round, run);
+            }
+    }
 
-int run(const fs::path& plate, int runs) {
-    const fs::path folder = fs::temp_directory_path() / fmt::format("keyline-bench-{}", getpid());
-    fs::create_directories(folder);
-    compare("1920×1080", plate, folder, runs);
-    compare("3840×2160", mosaic(plate, 2, folder), folder, runs);
-    compare("7680×4320", mosaic(plate, 4, folder), folder, std::max(1, runs / 3));
-    fs::remove_all(folder);
-    return 0;
-}
+    // The job itself against OpenEXR and the other programs.
+    void job(const Plate& plate) {
+        std::vector<Job> jobs{{"OpenEXR read + write", 0, openexr_copy(plate.file, out("copy"), threads_)},
+                              {"Keyline", 0, keyline_job(plate.file, out("lines"), threads_)}};
+        run_process(jobs.front().command);
+        for (const Peer& peer : peers(plate, folder_, threads_)) {
+            if (!is_installed(peer.program)) {
+                std::cerr << "left out, not installed: " << peer.name << '\n';
+                continue;
+            }
+            if (!peer.prepare.empty()) run_process(peer.prepare);
+            jobs.push_back({peer.name, 0, peer.command});
+        }
+        in_turn("job", jobs, rounds_);
+    }
+
+    void threads(const Plate& plate) {
+        std::vector<Job> jobs;
+        for (int n = 1; n <= 2 * threads_; n *= 2) {
+            jobs.push_back({"Keyline", double(n), keyline_job(plate.file, out("lines"), n)});
+            jobs.push_back({"OpenEXR read + write", double(n), openexr_copy(plate.file, out("copy"), n)});
+        }
+        in_turn("threads", jobs, rounds_);
+    }
+
+    void sigma(const Plate& plate) {
+        std::vector<Job> jobs;
+        for (const double s : {0.7, 1.4, 2.8, 5.6, 11.2, 22.4, 44.8})
+            jobs.push_back({"Keyline", s,
+                            keyline_job(plate.file, out("lines"), threads_,
+                                        {"--set", fmt::format("smooth.sigma={}", s)})});
+        in_turn("sigma", jobs, rounds_);
+    }
+
+    void sizes(const std::vector<Plate>& plates) {
+        std::vector<Job> jobs;
+        for (const Plate& p : plates) {
+            jobs.push_back({"Keyline", p.pixels(), keyline_job(p.file, out("lines"), threads_)});
+            for (const char* memory : {"256M", "384M"})
+                jobs.push_back({fmt::format("Keyline --memory {}", memory), p.pixels(),
+                                keyline_job(p.file, out("lines"), threads_, {"--memory", memory})});
+            jobs.push_back({"OpenEXR read + write", p.pixels(), openexr_copy(p.file, out("copy"), threads_)});
+        }
+        in_turn("size", jobs, rounds_);
+    }
+
+    // The frames are names of one file: they differ in nothing that costs time.
+    void sequence(const std::string& name, const Plate& plate) {
+        const fs::path frames = folder_ / ("sequence-" + name);
+        fs::remove_all(frames);
+        fs::create_directories(frames);
+        for (int i = 1; i <= kFrames; ++i)
+            fs::create_symlink(plate.file, frames / fmt::format("plate.{:04}.exr", i));
+        const fs::path in = frames / "plate.####.exr", to = frames / "lines.####.exr";
+        in_turn(
+            "sequence " + name,
+            {{"Keyline", 1, keyline_job(in, to, threads_, {"--frames", "1"})},
+             {"Keyline", kFrames, keyline_job(in, to, threads_, {"--frames", fmt::format("1-{}", kFrames)})}},
+            rounds_);
+        fs::remove_all(frames);
+    }
+
+    void check() {
+        const fs::path sources = KEYLINE_SOURCE_DIR;
+        const auto command = [&](const Command& arguments) {
+            return Command{programs() / "keyline"} + arguments;
+        };
+        in_turn("check",
+                {{"a graph of OpenEXR files", 0,
+                  command({"check", sources / "bench" / "lines.json", "--var",
+                           "plate=" + small_.file.string(), "--var", "out=" + out("lines").string()})},
+                 {"a graph that writes PNG too", 0, command({"check", sources / "graphs" / "toon.json"})}},
+                kShortRounds * rounds_);
+    }
+
+    const fs::path folder_;
+    RunLog log_;
+    const int rounds_, threads_;
+    const Plate hd_, small_;
+};
 
 }  // namespace
 }  // namespace keyline::bench
 
 int main(int argc, char** argv) {
-    if (argc < 2) {
-        std::cerr << "usage: bench_jobs PLATE.exr [RUNS]\n";
+    if (argc != 6) {
+        std::cerr << "usage: bench_jobs HD.exr SMALL.exr FOLDER RUNS.csv ROUNDS\n";
         return 2;
     }
     try {
-        return keyline::bench::run(argv[1], argc > 2 ? std::atoi(argv[2]) : 5);
+        keyline::bench::Suite(argv[1], argv[2], argv[3], argv[4], std::atoi(argv[5])).run();
     } catch (const std::exception& e) {
         std::cerr << "error: " << e.what() << '\n';
         return 1;
     }
+    return 0;
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/process.h"
 
-#include <algorithm>
 #include <chrono>
 #include <fcntl.h>
 #include <spawn.h>
@@ -32,15 +31,6 @@ Measured run_process(const std::vector<std::string>& command) {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw std::runtime_error(command[0] + " failed");
     return {time.count(), static_cast<std::size_t>(usage.ru_maxrss) * 1024};
-}
-
-Measured summary(std::vector<Measured> runs) {
-    Measured out;
-    for (const Measured& m : runs) out.peak_bytes = std::max(out.peak_bytes, m.peak_bytes);
-    const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
-    std::ranges::nth_element(runs, middle, {}, &Measured::seconds);
-    out.seconds = middle->seconds;
-    return out;
 }
 
 }  // namespace keyline::bench

@@ -17,7 +17,4 @@ struct Measured {
 // fails.
 Measured run_process(const std::vector<std::string>& command);
 
-// The median time and the largest memory of runs.
-Measured summary(std::vector<Measured> runs);
-
 }  // namespace keyline::bench

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The Keyline Authors
 # SPDX-License-Identifier: Apache-2.0
-# Installs what Keyline is built from and is not there yet, from Debian's packages.
+# Installs what Keyline is built from and is not there yet, from Debian's packages; and those named as arguments.
 set -euo pipefail
 
 packages=(
@@ -9,6 +9,7 @@ packages=(
   libopenexr-dev libimath-dev libopenimageio-dev libopencolorio-dev libdeflate-dev
   libtbb-dev libhwy-dev libfmt-dev nlohmann-json3-dev libcli11-dev
   libgtest-dev libgmock-dev
+  "$@"
 )
 
 missing=()

@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr mode_t kMode = 0666;               // less the umask
-constexpr int kMostLinks = 40;               // as the kernel has it
-constexpr uint64_t kSyncStep = 16ULL << 20;  // bytes
+constexpr mode_t kMode = 0666;              // less the umask
+constexpr int kMostLinks = 40;              // as the kernel has it
+constexpr uint64_t kSyncStep = 4ULL << 20;  // bytes
 
 std::string host_name() {
     std::array<char, HOST_NAME_MAX + 1> name = {};
