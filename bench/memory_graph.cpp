@@ -7,7 +7,6 @@
 #include "engine/plan.h"
 #include "engine/registry.h"
 
-#include <cstring>
 #include <fmt/format.h>
 #include <map>
 #include <mutex>
@@ -30,6 +29,13 @@ Shelf& shelf() {
     return the_shelf;
 }
 
+Plane plane_of(Picture& picture, std::size_t channel) {
+    return {reinterpret_cast<std::byte*>(picture.planes[channel].data()),
+            picture.width * static_cast<std::ptrdiff_t>(sizeof(float)),
+            SampleType::kFloat,
+            {0, 0, picture.width, picture.height}};
+}
+
 class MemorySource final : public ImageSource {
 public:
     explicit MemorySource(const Picture& picture) : picture_(picture) {
@@ -42,24 +48,14 @@ public:
 
     const ImageHeader& header() const override { return header_; }
     std::size_t chunk_memory(std::size_t) const override { return 0; }
+    void read_chunk(std::size_t, int, int, std::span<const Plane>) const override {}
 
-    void read_chunk(std::size_t, int column, int row, std::span<const Plane> planes) const override {
-        const Rect chunk = header_.groups[0].chunk(column, row);
-        for (std::size_t c = 0; c < planes.size(); ++c) {
-            if (!planes[c].data) continue;
-            const Rect rect = intersect(chunk, planes[c].rect);
-            for (int y = rect.y0; y < rect.y1; ++y)
-                std::memcpy(planes[c].at(rect.x0, y), &picture_.planes[c][offset(rect.x0, y)],
-                            static_cast<std::size_t>(rect.width()) * sizeof(float));
-        }
+    // Read only: no operation writes to what it reads.
+    Plane resident(std::size_t, std::size_t channel) const override {
+        return plane_of(const_cast<Picture&>(picture_), channel);
     }
 
 private:
-    std::size_t offset(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
-               static_cast<std::size_t>(x);
-    }
-
     const Picture& picture_;
     ImageHeader header_;
 };
@@ -83,16 +79,8 @@ public:
     const std::vector<ChannelInfo>& channels() const override { return channels_; }
     std::size_t chunk_memory() const override { return 0; }
 
-    EncodedChunk encode(int index, std::span<const Plane> planes) const override {
-        for (std::size_t c = 0; c < planes.size(); ++c) {
-            const Rect& rect = planes[c].rect;
-            const auto width = static_cast<std::size_t>(rect.width());
-            for (int y = rect.y0; y < rect.y1; ++y)
-                std::memcpy(&picture_.planes[c][static_cast<std::size_t>(y) * width], planes[c].at(0, y),
-                            width * sizeof(float));
-        }
-        return {index, {}};
-    }
+    Plane resident(std::size_t channel) const override { return plane_of(picture_, channel); }
+    EncodedChunk encode(int index, std::span<const Plane>) const override { return {index, {}}; }
     void commit(EncodedChunk) override {}
     void finish() override {}
 

@@ -17,7 +17,9 @@ namespace keyline::bench {
 struct Picture {
     int width = 0, height = 0;
     std::vector<std::string> channels;
-    std::vector<std::vector<float>> planes;  // one a channel, row by row
+    std::vector<std::vector<float>> planes;  // one a channel, row by row, and kSlack more
+
+    static constexpr std::size_t kSlack = 16;  // ImageSource::resident
 
     Picture() = default;
     Picture(int w, int h, std::vector<std::string> names)
@@ -25,7 +27,7 @@ struct Picture {
           height(h),
           channels(std::move(names)),
           planes(channels.size(),
-                 std::vector<float>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))) {}
+                 std::vector<float>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) + kSlack)) {}
 };
 
 class MemoryGraph {

@@ -15,6 +15,12 @@ Bands::Bands(const Rect& region, std::vector<SampleType> types, int origin, int 
     if (!region_.empty()) bands_.resize(static_cast<std::size_t>(band_of(region_.y1 - 1) + 1 - first_));
 }
 
+Bands::Bands(const Rect& region, std::vector<Plane> resident, int origin, int height)
+    : Bands(region, std::vector<SampleType>{}, origin, height) {
+    resident_ = std::move(resident);
+    for (const Plane& plane : resident_) types_.push_back(plane.type);
+}
+
 Rect Bands::rect(int band) const {
     const int y = origin_ + band * height_;
     return intersect(region_, {region_.x0, y, region_.x1, y + height_});
@@ -30,6 +36,7 @@ std::size_t Bands::plane_offset(std::size_t plane) const {
 }
 
 void Bands::allocate(int band, bool zero) {
+    if (is_resident()) return;
     Memory& memory = bands_[static_cast<std::size_t>(band - first_)];
     if (spare_.empty()) {
         memory = make_aligned<std::byte>(plane_offset(types_.size()));
@@ -47,8 +54,16 @@ void Bands::release(int band, bool reuse) {
 
 Plane Bands::plane(int band, std::size_t plane) const {
     const Rect r = rect(band);
+    if (is_resident()) return {resident_[plane].at(r.x0, r.y0), resident_[plane].stride, types_[plane], r};
     const auto stride = static_cast<std::ptrdiff_t>(sample_size(types_[plane])) * r.width();
     return {slot(band).get() + plane_offset(plane), stride, types_[plane], r};
+}
+
+std::optional<MutView> Bands::view(std::size_t plane, const Rect& region, const Rect& window) const {
+    if (!is_resident() || types_[plane] != SampleType::kFloat) return {};
+    const Plane& p = resident_[plane];
+    return MutView{reinterpret_cast<float*>(p.at(region.x0, region.y0)),
+                   p.stride / static_cast<std::ptrdiff_t>(sizeof(float)), region, window};
 }
 
 void Bands::load(std::size_t plane, const MutView& out) const {

@@ -6,6 +6,7 @@
 #include "engine/image.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,17 +22,25 @@ public:
     // Band i holds the rows [origin + i·height, origin + (i+1)·height) of `region`.
     Bands(const Rect& region, std::vector<SampleType> types, int origin, int height);
 
+    // The same over memory that someone else holds, whole: a plane a channel.  Nothing is ever allocated.
+    Bands(const Rect& region, std::vector<Plane> resident, int origin, int height);
+
+    bool is_resident() const { return !resident_.empty(); }
+
     const Rect& region() const { return region_; }
     const std::vector<SampleType>& types() const { return types_; }
     int first_band() const { return first_; }
     int end_band() const { return first_ + static_cast<int>(bands_.size()); }
     Rect rect(int band) const;
 
-    bool allocated(int band) const { return slot(band) != nullptr; }
+    bool allocated(int band) const { return is_resident() || slot(band) != nullptr; }
     void allocate(int band, bool zero);
     void release(int band, bool reuse);  // `reuse`: another band will want the memory
 
     Plane plane(int band, std::size_t plane) const;
+
+    // Samples of one plane where they lie: of resident floats.
+    std::optional<MutView> view(std::size_t plane, const Rect& region, const Rect& window) const;
 
     // Samples of one plane as floats; `region` lies inside the bands' region.
     void load(std::size_t plane, const MutView& out) const;
@@ -55,6 +64,7 @@ private:
     int origin_, height_, first_;
     std::vector<Memory> bands_;
     std::vector<Memory> spare_;
+    std::vector<Plane> resident_;
 };
 
 }  // namespace keyline

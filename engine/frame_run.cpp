@@ -7,6 +7,36 @@
 
 namespace keyline {
 
+namespace {
+
+// Null data anywhere: not resident.
+bool is_resident(const std::vector<Plane>& planes) {
+    return !planes.empty() && std::ranges::all_of(planes, [](const Plane& p) { return p.data != nullptr; });
+}
+
+std::unique_ptr<Bands> sink_bands(const ImageSink& sink) {
+    std::vector<Plane> planes;
+    std::vector<SampleType> types;
+    for (const ChannelInfo& c : sink.channels()) {
+        planes.push_back(sink.resident(types.size()));
+        types.push_back(c.type);
+    }
+    const Rect region = sink.region();
+    if (is_resident(planes))
+        return std::make_unique<Bands>(region, std::move(planes), region.y0, sink.chunk_height());
+    return std::make_unique<Bands>(region, std::move(types), region.y0, sink.chunk_height());
+}
+
+std::unique_ptr<Bands> store_bands(const Plan& plan, const Store& store) {
+    std::vector<Plane> planes;
+    for (const ValueRef v : store.values) planes.push_back(resident_plane(plan.frame, v));
+    if (is_resident(planes))
+        return std::make_unique<Bands>(store.region, std::move(planes), store.band_origin, store.band_height);
+    return std::make_unique<Bands>(store.region, store.types, store.band_origin, store.band_height);
+}
+
+}  // namespace
+
 FrameRun::FrameRun(Plan plan, Recorder* recorder) : plan_(std::move(plan)) {
     data_.recorder = recorder;
     create_sinks();
@@ -33,19 +63,14 @@ void FrameRun::create_sinks() {
             throw Failure(std::move(e));
         }
         const ImageSink& s = *sinks_.back();
-        std::vector<SampleType> types;
-        for (const ChannelInfo& c : s.channels()) types.push_back(c.type);
-        data_.sinks.push_back(
-            std::make_unique<Bands>(s.region(), std::move(types), s.region().y0, s.chunk_height()));
+        data_.sinks.push_back(sink_bands(s));
     }
 }
 
 void FrameRun::start_sweep() {
     for (std::size_t i = 0; i < plan_.stores.size(); ++i) {
         const Store& store = plan_.stores[i];
-        if (store.first_sweep == static_cast<int>(sweep_index_))
-            data_.stores[i] =
-                std::make_unique<Bands>(store.region, store.types, store.band_origin, store.band_height);
+        if (store.first_sweep == static_cast<int>(sweep_index_)) data_.stores[i] = store_bands(plan_, store);
     }
     sweep_ = std::make_unique<SweepRun>(plan_, static_cast<int>(sweep_index_), data_, sinks_);
 }

@@ -52,6 +52,11 @@ std::size_t sink_bytes(const Plan& plan, const Sweep& sweep, const Sink& sink) {
     return row * std::min(rows, static_cast<std::size_t>(sink.request.stream.window.height()));
 }
 
+bool is_resident(const Plan& plan, const Store& store) {
+    return std::ranges::all_of(store.values,
+                               [&](ValueRef v) { return resident_plane(plan.frame, v).data != nullptr; });
+}
+
 bool is_alive(const Store& store, int sweep) {
     return store.first_sweep <= sweep && sweep <= store.last_sweep;
 }
@@ -80,7 +85,7 @@ void estimate_memory(Plan& plan) {
         sweep.scratch_bytes = scratch_bytes(plan, sweep);
         std::size_t worker = kWorkerBytes + sweep.scratch_bytes, frame = 0;
         for (const Store& store : plan.stores) {
-            if (!is_alive(store, index)) continue;
+            if (!is_alive(store, index) || is_resident(plan, store)) continue;
             const bool passing = store.first_sweep == store.last_sweep && store.source_op >= 0;
             frame += passing ? store.row_bytes() * static_cast<std::size_t>(live_rows(plan, sweep, store))
                              : store.bytes();

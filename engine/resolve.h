@@ -47,6 +47,14 @@ struct ResolvedFrame {
     }
 };
 
+// Where a value lies in memory already; null data: nowhere.
+inline Plane resident_plane(const ResolvedFrame& frame, ValueRef v) {
+    const Op& op = frame.ops[static_cast<std::size_t>(v.op)];
+    if (!op.source) return {};
+    const auto output = static_cast<std::size_t>(v.output);
+    return op.source->resident(op.source_group[output], op.source_channel[output]);
+}
+
 struct ResolveOptions {
     std::filesystem::path ocio;        // the config; empty: the built-in one
     bool every_node = false;           // resolve those too that nothing written uses

@@ -181,6 +181,7 @@ void SweepRun::run_decode(const Job& job, int worker) const {
     const Store& store = plan_.stores[index(job.which)];
     const Op& op = plan_.frame.ops[index(store.source_op)];
     const Bands& bands = *data_.stores[index(job.which)];
+    if (bands.is_resident()) return;
     Timed time(data_.recorder, Activity::kRead, op.title, plan_.frame.frame, index_, worker);
     const auto pixels = bands.rect(job.row).area() * static_cast<int64_t>(store.values.size());
     time.pixels(pixels, pixels);

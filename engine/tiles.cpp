@@ -91,6 +91,12 @@ void TileWorker::run_step(std::size_t i) {
     outputs.clear();
     if (regions_[i].empty()) return;
     const auto first = static_cast<std::size_t>(step.output);
+    if (step.kind == Step::Kind::kLoad) {
+        const Bands& store = *data_->stores[static_cast<std::size_t>(step.store)];
+        if (const auto view =
+                store.view(static_cast<std::size_t>(step.plane), regions_[i], op.outputs[first].window))
+            return outputs.push_back(*view);
+    }
     for (std::size_t o = 0; o < step.slots.size(); ++o)
         outputs.push_back(buffer(step.slots[o], regions_[i], op.outputs[first + o].window));
     switch (step.kind) {

@@ -45,6 +45,11 @@ public:
     // In which type encode() takes each channel (same order as in SinkSpec): what the engine must keep.
     virtual const std::vector<ChannelInfo>& channels() const = 0;
 
+    // Where the samples of a channel are to be put, over the whole region; encode() is given parts of these
+    // planes.  They hold zeros, which stay where a channel has no data.  Null data, as for all files:
+    // wherever the engine likes.
+    virtual Plane resident(std::size_t /*channel*/) const { return {}; }
+
     // Packs and compresses one chunk; `planes` holds a plane a channel, each covering the chunk.  Safe from
     // any number of threads at once.
     virtual EncodedChunk encode(int index, std::span<const Plane> planes) const = 0;

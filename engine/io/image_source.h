@@ -59,6 +59,11 @@ public:
     // Bytes that one read_chunk of the group needs for itself while it runs (packed and unpacked buffers).
     virtual std::size_t chunk_memory(std::size_t group) const = 0;
 
+    // Where the samples of a channel lie in memory already, over the group's whole window and with 64 bytes
+    // that can be read behind the last: they are used in place, and read_chunk is not called.  Null data, as
+    // for all files: nowhere.
+    virtual Plane resident(std::size_t /*group*/, std::size_t /*channel*/) const { return {}; }
+
     // What decoding met that is worth a warning, once the frame is done.
     virtual std::vector<std::string> findings() const { return {}; }
 };
