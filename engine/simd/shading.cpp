@@ -141,6 +141,9 @@ HWY_INLINE void store_shaded(Memory memory, const SurfaceRows& surface, const Sh
     memory.store(rounded(grey), kFewFloats, out.y, i);
 }
 
+// What the kernels are told they copy first: for all the compiler knows, a row that is written to may lie on
+// it, and it would be read, and divided by, again for every vector.
+
 // Of a NaN it is 0.
 HWY_INLINE Doubles smooth_step(const SmoothStep& step, Doubles v) {
     const auto low = set(step.low), high = set(step.high);
@@ -203,8 +206,11 @@ HWY_INLINE Shade cel_shade(const CelTones& tones, const CelSums& sums) {
 }
 
 template <bool kHighlight>
-void cel_of(const SurfaceRows& surface, std::span<const LightRows> lights, const CelTones& tones, int n,
-            const ShadedRows& out) {
+void cel_of(const SurfaceRows& of_surface, std::span<const LightRows> lights, const CelTones& of_tones, int n,
+            const ShadedRows& to) {
+    const SurfaceRows surface = of_surface;
+    const CelTones tones = of_tones;
+    const ShadedRows out = to;
     for_each_vector(kDouble, n, [&](auto memory, int i) HWY_ATTR {
         const auto zero = hn::Zero(kDouble);
         CelSums sums{zero, zero, {zero, zero, zero}, {zero, zero, zero}};
@@ -221,14 +227,18 @@ void cel(const SurfaceRows& surface, std::span<const LightRows> lights, const Ce
         cel_of<false>(surface, lights, tones, n, out);
 }
 
-void gooch(const SurfaceRows& surface, std::span<const LightRows> lights, const GoochTones& tones, int n,
-           const ShadedRows& out) {
+void gooch(const SurfaceRows& of_surface, std::span<const LightRows> lights, const GoochTones& of_tones,
+           int n, const ShadedRows& to) {
+    const SurfaceRows surface = of_surface;
+    const GoochTones tones = of_tones;
+    const ShadedRows out = to;
     const double count = static_cast<double>(lights.size());
     for_each_vector(kDouble, n, [&](auto memory, int i) HWY_ATTR {
         auto sum = hn::Zero(kDouble);
         for (const LightRows& light : lights) sum = hn::Add(sum, wrapped(memory, light, i));
-        const auto mixed = [&](double from, double to)
-                               HWY_ATTR { return hn::Add(set(count * from), hn::Mul(set(to - from), sum)); };
+        const auto mixed = [&](double cool, double warm) HWY_ATTR {
+            return hn::Add(set(count * cool), hn::Mul(set(warm - cool), sum));
+        };
         const auto by = mixed(tones.alpha, tones.beta);
         Shade shade{{by, by, by}, {}};
         for (size_t c = 0; c < 3; ++c) shade.plus[c] = mixed(tones.cool[c], tones.warm[c]);
@@ -236,8 +246,11 @@ void gooch(const SurfaceRows& surface, std::span<const LightRows> lights, const 
     });
 }
 
-void phong(const SurfaceRows& surface, std::span<const LightRows> lights, const double* normal_toward_eye,
-           const PhongTones& tones, int n, const ShadedRows& out) {
+void phong(const SurfaceRows& of_surface, std::span<const LightRows> lights, const double* normal_toward_eye,
+           const PhongTones& of_tones, int n, const ShadedRows& to) {
+    const SurfaceRows surface = of_surface;
+    const PhongTones tones = of_tones;
+    const ShadedRows out = to;
     for_each_vector(kDouble, n, [&](auto memory, int i) HWY_ATTR {
         const auto zero = hn::Zero(kDouble);
         const auto normal_eye = memory.load(kDouble, normal_toward_eye, i);
