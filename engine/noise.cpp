@@ -35,12 +35,32 @@ double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 
 double lerp(double t, double a, double b) { return a + t * (b - a); }
 
-// The dot product with one of the directions to a cube's edges.
+struct Direction {
+    double x, y, z;
+};
+
+// To the middles of a cube's edges, four of them twice.  A table, because no processor could foresee which of
+// several branches a hash takes.
+constexpr std::array<Direction, 16> kDirections{{{1, 1, 0},
+                                                 {-1, 1, 0},
+                                                 {1, -1, 0},
+                                                 {-1, -1, 0},
+                                                 {1, 0, 1},
+                                                 {-1, 0, 1},
+                                                 {1, 0, -1},
+                                                 {-1, 0, -1},
+                                                 {0, 1, 1},
+                                                 {0, -1, 1},
+                                                 {0, 1, -1},
+                                                 {0, -1, -1},
+                                                 {1, 1, 0},
+                                                 {0, -1, 1},
+                                                 {-1, 1, 0},
+                                                 {0, -1, -1}}};
+
 double gradient(unsigned hash, double x, double y, double z) {
-    const unsigned h = hash % 16;
-    const double u = h < 8 ? x : y;
-    const double v = h < 4 ? y : h == 12 || h == 14 ? x : z;
-    return (h % 2 == 0 ? u : -u) + (h / 2 % 2 == 0 ? v : -v);
+    const Direction& d = kDirections[hash % 16];
+    return d.x * x + d.y * y + d.z * z;
 }
 
 // A coordinate's cell, of 256, and what is left of it.
@@ -50,6 +70,14 @@ struct Cell {
 };
 
 Cell cell(double at) {
+    if (at == 0) return {};  // a missing coordinate
+    constexpr double kFitsInt = 1 << 30;
+    if (std::abs(at) < kFitsInt) {  // as below, without a call of floor()
+        const int toward_zero = static_cast<int>(at);
+        const int whole = toward_zero - (toward_zero > at ? 1 : 0);
+        const double rest = at - whole;
+        return {static_cast<unsigned>(whole) % 256, rest, fade(rest)};
+    }
     const double whole = std::floor(at);
     const double of_256 = whole - 256 * std::floor(whole / 256);
     return {static_cast<unsigned>(of_256), at - whole, fade(at - whole)};

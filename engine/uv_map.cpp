@@ -57,8 +57,11 @@ UvPlace UvMap::look_up(int x, int y) const {
     UvPlace out;
     out.alpha = channels_.size() > 2 ? double{*channels_[2].at(x, y)} : 1.0;
     if (out.alpha == 0) return out;
-    out.u = double{*channels_[0].at(x, y)} / out.alpha;
-    out.v = double{*channels_[1].at(x, y)} / out.alpha;
+    out.u = double{*channels_[0].at(x, y)};
+    out.v = double{*channels_[1].at(x, y)};
+    if (out.alpha == 1) return out;
+    out.u /= out.alpha;
+    out.v /= out.alpha;
     return out;
 }
 
