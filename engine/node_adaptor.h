@@ -15,11 +15,21 @@ class Check {
 public:
     Check(const Value& object, ParamReader& reader) : object_(object), reader_(reader) {}
     void error(const char* name, std::string what, std::string hint = {}) {
-        const Value* v = object_.find(name);
-        reader_.error(v ? v->place : object_.place, std::move(what), std::move(hint));
+        reader_.error(value(name).place, std::move(what), std::move(hint));
+    }
+    // The same of one item of a list, counted from 0.
+    void error(const char* list, std::size_t item, std::string what, std::string hint = {}) {
+        const Value& v = value(list);
+        reader_.error(item < v.items.size() ? v.items[item].place : v.place, std::move(what),
+                      std::move(hint));
     }
 
 private:
+    const Value& value(const char* name) const {
+        const Value* v = object_.find(name);
+        return v ? *v : object_;
+    }
+
     const Value& object_;
     ParamReader& reader_;
 };

@@ -404,10 +404,14 @@ std::vector<FieldInfo> describe_fields(const Fields& declaration, const Params& 
 
 template <class Params, class Fields>
 Value fields_to_value(const Fields& declaration, const Params& params) {
+    const Params defaults{};
     std::vector<std::pair<std::string, Value>> members;
     const auto add = [&]<class Owner, class T>(const Field<Owner, T>& f) {
+        const auto is_null = [](const Value& v) { return v.is(Value::Kind::kNull); };
         Value v = Codec<T>::to_value(params.*f.member);
-        if (!v.is(Value::Kind::kNull)) members.emplace_back(f.name, std::move(v));
+        // Absent says none only where none is the default.
+        if (is_null(v) && is_null(Codec<T>::to_value(defaults.*f.member))) return;
+        members.emplace_back(f.name, std::move(v));
     };
     std::apply([&](const auto&... f) { (add(f), ...); }, declaration);
     return detail::make_object(std::move(members));

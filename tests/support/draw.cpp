@@ -49,6 +49,7 @@ std::vector<std::string> Draw::channels(const Takes& takes) {
     std::vector<std::string> names;
     switch (takes.kind) {
         case Takes::Kind::kAny:
+            if (one_in(3)) return {"A", "U", "V"};
             return one_in(2) ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B", "A"};
         case Takes::Kind::kColour:
             names = {"R", "G", "B"};
@@ -89,6 +90,10 @@ Json Draw::object(const std::vector<FieldInfo>& fields, const NameInput& input) 
     Json out;
     for (const FieldInfo& f : fields) {
         if (!f.required && one_in(f.type.optional ? 2 : 5)) continue;
+        if (f.type.optional && !f.default_value.is(Value::Kind::kNull) && one_in(3)) {
+            out.set(f.name, Json::verbatim("null"));
+            continue;
+        }
         if (auto v = value(f.type, input)) out.set(f.name, std::move(*v));
     }
     return out;
