@@ -138,7 +138,7 @@ void LightRun::read(const Run& run, const simd::UnitRows& normal, const simd::Un
         const Memory& m = memory_[i];
         const auto meet = [&](const auto& toward) {
             simd::dot_row(normal, toward, run.n, m.facing);
-            if (eye != nullptr) simd::dot_row(*eye, toward, run.n, m.toward_eye);
+            if (eye != nullptr) simd::dot_row(*eye, toward, run.n, m.own);
         };
         if (light.toward) {
             meet(*light.toward);
@@ -150,7 +150,7 @@ void LightRun::read(const Run& run, const simd::UnitRows& normal, const simd::Un
         const float *own = matte_row(in_[light.shadow], run), *shared = matte_row(shadow_, run);
         const bool whole = falloff == nullptr && own == nullptr && shared == nullptr;
         if (!whole) simd::reach_row(falloff, own, shared, run.n, m.reach);
-        rows_[i] = {m.facing, whole ? nullptr : m.reach, m.toward_eye, light.color};
+        rows_[i] = {m.facing, whole ? nullptr : m.reach, m.own, light.color};
     }
 }
 

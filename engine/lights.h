@@ -144,7 +144,7 @@ public:
 
 private:
     struct Memory {
-        double *facing, *reach, *toward_eye;
+        double *facing, *reach, *own;
     };
     const Lighting& lights_;
     const Inputs& in_;

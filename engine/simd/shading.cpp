@@ -174,12 +174,12 @@ struct CelSums {
 template <bool kHighlight, class Memory>
 HWY_INLINE void add_light(Memory memory, const LightRows& light, const CelTones& tones, int i,
                           CelSums& sums) {
-    const auto v = wrapped(memory, light, i), reach = reach_of(memory, light, i);
-    const auto t = tones.continuous ? v : smooth_step(tones.transition, v);
+    const auto reach = reach_of(memory, light, i), t = memory.load(kDouble, light.own, i);
     const auto tone = hn::Mul(reach, t);
     sums.dark = hn::Add(sums.dark, hn::Sub(set(1), t));
     for (size_t c = 0; c < 3; ++c) sums.lit[c] = hn::Add(sums.lit[c], hn::Mul(set(light.color[c]), tone));
     if (!kHighlight) return;
+    const auto v = wrapped(memory, light, i);
     const auto counts = hn::Gt(v, set(tones.threshold));
     sums.squares = hn::Add(sums.squares, hn::IfThenElse(counts, hn::Mul(v, v), hn::Zero(kDouble)));
     for (size_t c = 0; c < 3; ++c)
@@ -205,6 +205,17 @@ HWY_INLINE Shade cel_shade(const CelTones& tones, const CelSums& sums) {
     return shade;
 }
 
+// Before all else and by themselves: in short loops the processor works on many vectors at once, where one
+// long chain of operations would have it wait.
+void cel_tones(const LightRows& of_light, const CelTones& of_tones, int n) {
+    const LightRows light = of_light;
+    const CelTones tones = of_tones;
+    for_each_vector(kDouble, n, [&](auto memory, int i) HWY_ATTR {
+        const auto v = wrapped(memory, light, i);
+        memory.store(tones.continuous ? v : smooth_step(tones.transition, v), kDouble, light.own, i);
+    });
+}
+
 template <bool kHighlight>
 void cel_of(const SurfaceRows& of_surface, std::span<const LightRows> lights, const CelTones& of_tones, int n,
             const ShadedRows& to) {
@@ -221,6 +232,7 @@ void cel_of(const SurfaceRows& of_surface, std::span<const LightRows> lights, co
 
 void cel(const SurfaceRows& surface, std::span<const LightRows> lights, const CelTones& tones, int n,
          const ShadedRows& out) {
+    for (const LightRows& light : lights) cel_tones(light, tones, n);
     if (tones.has_highlight)
         cel_of<true>(surface, lights, tones, n, out);
     else
@@ -259,8 +271,8 @@ void phong(const SurfaceRows& of_surface, std::span<const LightRows> lights, con
         for (const LightRows& light : lights) {
             const auto facing = memory.load(kDouble, light.facing, i), reach = reach_of(memory, light, i);
             // R = 2 (L·N) N − L
-            const auto mirrored = hn::Sub(hn::Mul(hn::Add(facing, facing), normal_eye),
-                                          memory.load(kDouble, light.toward_eye, i));
+            const auto mirrored =
+                hn::Sub(hn::Mul(hn::Add(facing, facing), normal_eye), memory.load(kDouble, light.own, i));
             const auto diffuse = hn::Mul(set(tones.diffuse), larger_than_zero(facing));
             const auto specular =
                 hn::Mul(set(tones.specular), pow(kDouble, larger_than_zero(mirrored), tones.exponent));

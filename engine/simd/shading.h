@@ -48,9 +48,9 @@ struct ShadedRows {
 
 // A light as a row of pixels meets it; L is the unit vector to it, N the normal, V that to the eye.
 struct LightRows {
-    const double* facing;      // L · N
-    const double* reach;       // what falloff and shadows leave of its colour; null: 1
-    const double* toward_eye;  // L · V; for phong alone
+    const double* facing;  // L · N
+    const double* reach;   // what falloff and shadows leave of its colour; null: 1
+    double* own;           // phong: L · V; cel: room for n tones
     std::array<double, 3> color;
 };
 

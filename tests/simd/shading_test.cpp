@@ -33,7 +33,7 @@ struct Vectors {
 template <class Shade>
 Rows shaded(int x, int n, bool premultiplied, const Shade& shade) {
     Vectors normal, toward, eye;
-    std::array<std::array<double, kWidth>, 7> of{};
+    std::array<std::array<double, kWidth>, 8> of{};
     simd::unit_row({row(0, x), row(1, x), row(2, x)}, n, normal.unit());
     simd::covered_row(row(3, x), normal.unit(), n, of[0].data());
     simd::toward_row({row(4, x), row(5, x), row(6, x)}, {1, -2, 0.5}, n, toward.unit(), of[1].data());
@@ -43,9 +43,10 @@ Rows shaded(int x, int n, bool premultiplied, const Shade& shade) {
     simd::dot_row(normal.unit(), {0, 0.6, 0.8}, n, of[4].data());
     simd::dot_row(eye.unit(), toward.unit(), n, of[5].data());
     simd::dot_row(eye.unit(), normal.unit(), n, of[6].data());
+    simd::dot_row(eye.unit(), {0, 0.6, 0.8}, n, of[7].data());
     const std::array lights{
         simd::LightRows{of[3].data(), of[2].data(), of[5].data(), {1, 0.5, 0.25}},
-        simd::LightRows{of[4].data(), nullptr, of[5].data(), {0.3, 0.2, 0.1}},
+        simd::LightRows{of[4].data(), nullptr, of[7].data(), {0.3, 0.2, 0.1}},
     };
     Rows out;
     out.fill(Row(static_cast<std::size_t>(n)));
