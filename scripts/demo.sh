@@ -9,5 +9,5 @@ cd "$(dirname "$0")/.."
 scripts/install-packages.sh
 cmake --preset release -DKEYLINE_TESTS=OFF >/dev/null
 cmake --build --preset release
-build/release/bin/keyline render graphs/toon.json --frames 1
-echo "the picture: $PWD/out/toon.0001.png"
+build/release/bin/keyline render graphs/toon.json --frames 24
+echo "the picture: $PWD/out/toon.0024.png"
