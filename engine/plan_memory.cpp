@@ -48,7 +48,8 @@ std::size_t sink_bytes(const Plan& plan, const Sweep& sweep, const Sink& sink) {
     std::size_t row = 0;
     for (const ChannelInfo& c : sink.request.spec.channels)
         row += sample_size(c.type) * static_cast<std::size_t>(sink.request.stream.window.width());
-    const auto rows = static_cast<std::size_t>(plan.rows_ahead * sweep.tile_height + 32);
+    const auto rows =
+        static_cast<std::size_t>(plan.rows_ahead) * static_cast<std::size_t>(sweep.tile_height) + 32;
     return row * std::min(rows, static_cast<std::size_t>(sink.request.stream.window.height()));
 }
 

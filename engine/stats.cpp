@@ -78,9 +78,10 @@ void Recorder::add(const Event& e) {
 void Recorder::finish() {
     const std::lock_guard lock(mutex_);
     // An entry of no length ends the list, as JSON allows no comma there.
-    trace_ << "{\"ph\": \"i\", \"pid\": 0, \"tid\": 0, \"ts\": "
-           << fmt::format("{:.1f}", 1e6 * seconds_between(start_, Clock::now()))
-           << ", \"name\": \"end\"}\n]}\n"
+    trace_ << fmt::format(R"({{"ph": "i", "pid": 0, "tid": 0, "ts": {:.1f}, "name": "end"}}
+]}}
+)",
+                          1e6 * seconds_between(start_, Clock::now()))
            << std::flush;
     if (!trace_) fail(ErrorKind::kOutput, "cannot write the profile " + in_quotes(name_));
 }

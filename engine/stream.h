@@ -17,7 +17,7 @@ namespace keyline {
 struct ValueRef {
     int op = -1;
     int output = 0;
-    friend auto operator<=>(const ValueRef&, const ValueRef&) = default;
+    friend auto operator<=>(const ValueRef&, const ValueRef&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct StreamChannel {

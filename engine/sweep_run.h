@@ -37,7 +37,7 @@ struct Job {
 // outlive the sweep.  Locking is as in FrameRun.
 class SweepRun {
 public:
-    SweepRun(const Plan& plan, int index, FrameData& data, std::vector<std::unique_ptr<ImageSink>>& sinks);
+    SweepRun(const Plan& plan, int sweep, FrameData& data, std::vector<std::unique_ptr<ImageSink>>& sinks);
 
     std::optional<Job> next();
     void run(const Job& job, TileWorker& worker);

@@ -107,7 +107,7 @@ struct IdEdge {
     // The owner is the id of the nearer object.
     static constexpr std::array outputs{"edge", "owner"};
 
-    explicit IdEdge(const Params& p) : params(p) {}
+    explicit IdEdge(Params p) : params(std::move(p)) {}
 
     Stream expand(Builder& builder) const;
 

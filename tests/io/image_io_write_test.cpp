@@ -45,9 +45,9 @@ TEST(ImageIoWrite, LeavesNothingWhenItIsGivenUp) {
     const Pixels in = ramp(10, 100, {"R", "G", "B"});
     for (const char* name : {"a.png", "a.tif", "a.jpg", "a.tga", "a.webp", "a.jp2", "a.hdr", "a.dpx"}) {
         auto sink = create_file(folder / name, spec_for(in));
-        std::vector<float> values(10 * 32, 0.5F);
+        std::vector<float> values(10 * 64, 0.5F);  // the first of two chunks
         const Plane plane{
-            reinterpret_cast<std::byte*>(values.data()), 40, SampleType::kFloat, {0, 0, 10, 32}};
+            reinterpret_cast<std::byte*>(values.data()), 40, SampleType::kFloat, {0, 0, 10, 64}};
         sink->commit(sink->encode(0, std::vector<Plane>(3, plane)));
         EXPECT_EQ(error_of([&] { sink->finish(); }).kind, ErrorKind::kInternal) << name;
         testing::internal::CaptureStderr();
