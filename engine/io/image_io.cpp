@@ -14,10 +14,6 @@ extern "C" keyline::ImageSource* keyline_open_image(const char* path, const keyl
     return keyline::oiio::open_picture(path, *options).release();
 }
 
-extern "C" void keyline_check_image(const char* path, const keyline::SinkSpec* spec) {
-    keyline::oiio::check_picture(path, *spec);
-}
-
 extern "C" keyline::ImageSink* keyline_create_image(const char* path, const keyline::SinkSpec* spec) {
     keyline::oiio::use_no_threads();
     return keyline::oiio::create_picture(path, *spec).release();

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/io/image_io_formats.h"
 
-#include "engine/error.h"
 #include "engine/io/image_io_library.h"
+#include "engine/io/output_format.h"
 
 #include <algorithm>
 #include <array>
@@ -15,77 +15,6 @@
 namespace keyline::oiio {
 
 namespace {
-
-constexpr Depth k8 = Depth::kUint8, k16 = Depth::kUint16, kF = Depth::kFloat;
-
-// Tried one by one against OpenImageIO 2.4: its writers take whatever they are given, and drop, repeat or
-// round without a word what their format lacks (one aborts), so that asking them would not do.
-const std::vector<OutputFormat>& output_formats() {
-    static const std::vector<OutputFormat> formats = {
-        {.name = "bmp", .extensions = {"bmp"}, .depths = {k8}, .channel_sets = {"Y", "RGB", "RGBA"}},
-        {.name = "dpx", .extensions = {"dpx"}, .depths = {kF, k16, k8}, .channel_sets = {"Y", "RGB", "RGBA"}},
-        {.name = "fits", .extensions = {"fits"}, .depths = {kF, k8}, .channel_sets = {"Y"}},
-        {.name = "gif", .extensions = {"gif"}, .depths = {k8}, .channel_sets = {"RGB"}},
-        {.name = "hdr", .extensions = {"hdr", "rgbe"}, .depths = {kF}, .channel_sets = {"RGB"}},
-        {.name = "heif",
-         .extensions = {"heic", "heif"},
-         .depths = {k8},
-         .channel_sets = {"RGB", "RGBA"},
-         .straight_alpha = true},
-        // Unpacked, or in 16 bits with alpha, it can't be read back.
-        {.name = "iff",
-         .extensions = {"iff"},
-         .depths = {k8},
-         .channel_sets = {"RGB", "RGBA"},
-         .tiled = true,
-         .compressions = {"rle"}},
-        {.name = "jpeg",
-         .extensions = {"jpg", "jpeg", "jpe", "jif", "jfif", "jfi"},
-         .depths = {k8},
-         .channel_sets = {"Y", "RGB"},
-         .compressions = {"jpeg"},
-         .has_quality = true},
-        {.name = "jpeg2000",
-         .extensions = {"jp2", "j2k"},
-         .depths = {k16, k8},
-         .channel_sets = {"Y", "RGB", "RGBA"},
-         .straight_alpha = true},
-        {.name = "png",
-         .extensions = {"png"},
-         .depths = {k16, k8},
-         .channel_sets = {"Y", "YA", "RGB", "RGBA"},
-         .straight_alpha = true,
-         .compressions = {"zip", "none"}},
-        {.name = "pnm", .extensions = {"ppm", "pgm", "pnm"}, .depths = {k8}, .channel_sets = {"Y", "RGB"}},
-        // Its run lengths lose samples of integers.
-        {.name = "rla", .extensions = {"rla"}, .depths = {kF}, .channel_sets = {"RGB", "RGBA"}},
-        {.name = "sgi",
-         .extensions = {"sgi", "rgb", "rgba", "bw", "int", "inta"},
-         .depths = {k16, k8},
-         .channel_sets = {"Y", "RGB", "RGBA"}},
-        {.name = "targa",
-         .extensions = {"tga", "tpic"},
-         .depths = {k8},
-         .channel_sets = {"Y", "RGB", "RGBA"},
-         .straight_alpha = true,
-         .compressions = {"rle", "none"}},
-        {.name = "tiff",
-         .extensions = {"tif", "tiff", "tx", "env", "sm", "vsm"},
-         .depths = {kF, k16, k8},
-         .channel_sets = {"Y", "YA", "RGB", "RGBA"},
-         .more_channels = true,
-         .compressions = {"zip", "lzw", "packbits", "none"}},
-        {.name = "webp",
-         .extensions = {"webp"},
-         .depths = {k8},
-         .channel_sets = {"RGB", "RGBA"},
-         .straight_alpha = true,
-         .compressions = {"webp"},
-         .has_quality = true},
-        {.name = "zfile", .extensions = {"zfile"}, .depths = {kF}, .channel_sets = {"Y"}},
-    };
-    return formats;
-}
 
 struct Magic {
     std::string_view format;
@@ -132,14 +61,6 @@ constexpr std::array kMagics = {
 // Formats that no first bytes tell, or whose first bytes are also another's.
 constexpr std::array kByExtension = {"ffmpeg"sv, "raw"sv, "rla"sv, "targa"sv};
 
-std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
 // OpenImageIO's own list, "png:png;jpeg:jpg,jpeg", by format.
 std::map<std::string, std::vector<std::string>> extensions_read() {
     std::map<std::string, std::vector<std::string>> extensions;
@@ -174,24 +95,6 @@ std::string by_content(std::string_view text) {
 
 }  // namespace
 
-bool OutputFormat::holds(std::string_view channel_set) const {
-    return std::ranges::find(channel_sets, channel_set) != channel_sets.end();
-}
-
-const OutputFormat& output_format(const std::filesystem::path& file) {
-    const std::string extension = extension_of(file);
-    std::vector<std::string> known = {"exr"};
-    for (const OutputFormat& format : output_formats()) {
-        if (std::ranges::find(format.extensions, extension) != format.extensions.end()) return format;
-        known.insert(known.end(), format.extensions.begin(), format.extensions.end());
-    }
-    std::ranges::sort(known);
-    const std::string what = extension.empty()
-                                 ? "the name has no extension to tell the format"
-                                 : fmt::format("no format is written as {}", in_quotes("." + extension));
-    fail(ErrorKind::kGraph, fmt::format("{}: {}", file.string(), what), "use one of " + spaced(known));
-}
-
 std::string input_format(const std::filesystem::path& file, std::span<const std::byte> first_bytes) {
     const std::string_view text(reinterpret_cast<const char*>(first_bytes.data()), first_bytes.size());
     const std::string content = by_content(text);
@@ -207,27 +110,10 @@ std::string input_format(const std::filesystem::path& file, std::span<const std:
     return content;
 }
 
-std::string spaced(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    return text;
-}
-
 std::vector<std::string> input_extensions() {
     std::set<std::string> first = {"exr"};
     for (const auto& [format, extensions] : extensions_read()) first.insert(extensions.front());
     return {first.begin(), first.end()};
-}
-
-const char* depth_name(Depth depth) {
-    switch (depth) {
-        case Depth::kAuto: return "auto";
-        case Depth::kHalf: return "half";
-        case Depth::kFloat: return "float";
-        case Depth::kUint8: return "uint8";
-        case Depth::kUint16: return "uint16";
-    }
-    return "";
 }
 
 }  // namespace keyline::oiio

@@ -6,6 +6,7 @@
 #include "engine/io/image_io_bands.h"
 #include "engine/io/image_io_formats.h"
 #include "engine/io/image_io_metadata.h"
+#include "engine/io/output_format.h"
 
 #include <algorithm>
 #include <array>

@@ -18,7 +18,4 @@ namespace keyline::oiio {
 // where the file can't be made.
 std::unique_ptr<ImageSink> create_picture(const std::filesystem::path& file, const SinkSpec& spec);
 
-// Throws what create_picture() would for what the format can't hold.
-void check_picture(const std::filesystem::path& file, const SinkSpec& spec);
-
 }  // namespace keyline::oiio

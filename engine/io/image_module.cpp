@@ -3,10 +3,9 @@
 #include "engine/io/image_module.h"
 
 #include "engine/error.h"
+#include "engine/io/output_format.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -29,7 +28,6 @@ public:
 
     KeylineOpenImage* open;
     KeylineCreateImage* create;
-    KeylineCheckImage* check;
 
 private:
     Module() {
@@ -38,7 +36,6 @@ private:
         if (handle == nullptr) throw std::runtime_error(dlerror());
         open = reinterpret_cast<KeylineOpenImage*>(symbol(handle, "keyline_open_image"));
         create = reinterpret_cast<KeylineCreateImage*>(symbol(handle, "keyline_create_image"));
-        check = reinterpret_cast<KeylineCheckImage*>(symbol(handle, "keyline_check_image"));
         module_loaded = true;
     }
 
@@ -71,16 +68,7 @@ std::unique_ptr<ImageSink> create_with_module(const std::filesystem::path& file,
     return std::unique_ptr<ImageSink>(module_for(file, ErrorKind::kOutput).create(file.c_str(), &spec));
 }
 
-void check_with_module(const std::filesystem::path& file, const SinkSpec& spec) {
-    module_for(file, ErrorKind::kOutput).check(file.c_str(), &spec);
-}
-
-bool needs_module(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension != ".exr";
-}
+bool needs_module(const std::filesystem::path& file) { return extension_of(file) != "exr"; }
 
 bool module_is_loaded() { return module_loaded; }
 

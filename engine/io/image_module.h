@@ -18,11 +18,9 @@
 extern "C" {
 using KeylineOpenImage = keyline::ImageSource*(const char* path, const keyline::OpenOptions* options);
 using KeylineCreateImage = keyline::ImageSink*(const char* path, const keyline::SinkSpec* spec);
-using KeylineCheckImage = void(const char* path, const keyline::SinkSpec* spec);
 
 KeylineOpenImage keyline_open_image;
 KeylineCreateImage keyline_create_image;
-KeylineCheckImage keyline_check_image;
 }
 
 namespace keyline {
@@ -30,7 +28,6 @@ namespace keyline {
 // Throw Failure: kInput or kOutput where the module can't be loaded, else as open_image() and create_image().
 std::unique_ptr<ImageSource> open_with_module(const std::filesystem::path& file, const OpenOptions& options);
 std::unique_ptr<ImageSink> create_with_module(const std::filesystem::path& file, const SinkSpec& spec);
-void check_with_module(const std::filesystem::path& file, const SinkSpec& spec);
 
 // Whether a file of this name is written by the module.
 bool needs_module(const std::filesystem::path& file);

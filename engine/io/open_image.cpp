@@ -9,6 +9,7 @@
 #include "engine/io/image_sink.h"
 #include "engine/io/image_source.h"
 #include "engine/io/output_file.h"
+#include "engine/io/output_format.h"
 
 #include <algorithm>
 #include <array>
@@ -65,7 +66,7 @@ void check_image(const std::filesystem::path& file, const SinkSpec& spec) {
     if (!needs_module(file))
         exr::layout_of(spec);
     else
-        check_with_module(file, spec);
+        picture_layout(file, spec);
 }
 
 bool is_finished(const std::filesystem::path& file, const SinkSpec& spec) {
