@@ -9,9 +9,12 @@
 #include "bench/plate.h"
 #include "bench/tiled_node.h"
 
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <thread>
 
@@ -21,6 +24,34 @@ namespace {
 struct Pictures {
     Picture beauty, grey, mask;
 };
+
+std::size_t index_of(const Picture& picture, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+           static_cast<std::size_t>(x);
+}
+
+// What is hard for hysteresis: values between its thresholds, and one pixel that decides for all that hang
+// together with it.
+Picture weak_where(int width, int height, const std::function<bool(int, int)>& line) {
+    Picture picture(width, height, {"Y"});
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) picture.planes[0][index_of(picture, x, y)] = line(x, y) ? 0.5F : 0.0F;
+    picture.planes[0][index_of(picture, 0, 0)] = 1;
+    return picture;
+}
+
+// One line from the corner to the middle, with as much room between its turns as it is wide.
+bool on_spiral(int x, int y, int width, int height) {
+    const int ring = std::min({x, y, width - 1 - x, height - 1 - y});
+    const bool entry = x == ring - 1 && y == ring;  // from the ring around to this one
+    const bool opened = x == ring && y == ring + 1;
+    return ring % 2 == 0 ? !opened : entry;
+}
+
+bool is_noise(int x, int y) {
+    const auto hash = (static_cast<unsigned>(x) * 0x9E3779B1U) ^ (static_cast<unsigned>(y) * 0x85EBCA77U);
+    return ((hash * 0xC2B2AE3DU) >> 16U) % 5 < 2;
+}
 
 void time_graph(benchmark::State& state, const std::string& nodes, const Picture& picture) {
     MemoryGraph graph(nodes, picture, static_cast<int>(state.range(0)));
@@ -76,6 +107,19 @@ void add_edge_nodes(const Picture& grey) {
         grey);
 }
 
+void add_hard_hysteresis(const std::string& name, Picture picture) {
+    const auto shared = std::make_shared<Picture>(std::move(picture));
+    benchmark::RegisterBenchmark(("hysteresis, " + name).c_str(),
+                                 [shared](benchmark::State& state) {
+                                     time_graph(state, node("hysteresis", R"("low": 0.4, "high": 0.6)"),
+                                                *shared);
+                                 })
+        ->ArgName("threads")
+        ->Arg(1)
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+}
+
 void add_dilations(const Pictures& pictures) {
     for (const char* shape : {"square", "disk", "diamond"})
         for (const int radius : {2, 50}) {
@@ -112,6 +156,12 @@ int run(int argc, char** argv) {
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     add("copy", node("shuffle", R"("channels": {"Y": "Y"})"), pictures.grey);
     add_edge_nodes(pictures.grey);
+    const int width = pictures.grey.width, height = pictures.grey.height;
+    add_hard_hysteresis("nothing", weak_where(width, height, [](int, int) { return false; }));
+    add_hard_hysteresis("one component", weak_where(width, height, [](int, int) { return true; }));
+    add_hard_hysteresis("noise", weak_where(width, height, is_noise));
+    add_hard_hysteresis(
+        "a spiral", weak_where(width, height, [&](int x, int y) { return on_spiral(x, y, width, height); }));
     add_dilations(pictures);
     add_point_nodes(pictures);
     benchmark::RunSpecifiedBenchmarks();
