@@ -63,8 +63,17 @@ void refuse_extras(const CLI::App& program) {
         for (const std::string& extra : command->remaining()) refuse_extra(program, *command, extra);
 }
 
+// CLI11 takes the next argument for the value of "--root=": in a script, that of a variable that is not set.
+void refuse_empty_values(const std::vector<std::string_view>& arguments) {
+    for (const std::string_view a : arguments)
+        if (a.starts_with("--") && a.find('=') == a.size() - 1)
+            fail(ErrorKind::kGraph, fmt::format("the value of {} is empty", a.substr(0, a.size() - 1)),
+                 "give one, or leave the option out");
+}
+
 // Fills in what is to be done; an exit status where that is all.
 std::optional<int> parse(CLI::App& program, int argc, char** argv) {
+    refuse_empty_values({argv + 1, argv + argc});
     try {
         program.parse(argc, argv);
     } catch (const CLI::Success& e) {  // --help, --version

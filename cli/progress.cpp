@@ -112,6 +112,18 @@ void Progress::end() {
                       : ""));
 }
 
+void Progress::stopped(const std::string& signal) {
+    if (mode_ == ProgressMode::kJson)
+        print_message(JsonWriter()
+                          .begin_object()
+                          .field("event", "stopped")
+                          .field("signal", signal)
+                          .end_object()
+                          .text());
+    else
+        print_message(fmt::format("stopped by {}; no unfinished output is left", signal));
+}
+
 void Progress::warning(const Error& warning) { print("warning", warning.warning_text()); }
 void Progress::error(const Error& error) { print("error", error.text()); }
 

@@ -27,6 +27,7 @@ public:
 
     void start(std::size_t frames);
     void end();
+    void stopped(const std::string& signal);  // after end(), where it came before the last frame's
 
     void frame_started(int frame, const Plan& plan) override;
     void frame_ended(int frame, FrameOutcome outcome) override;

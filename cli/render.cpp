@@ -66,12 +66,6 @@ ProgressMode progress_mode(const std::string& word, Diagnostics& diagnostics) {
     }
 }
 
-int stopped(const StopOnSignal& stop) {
-    print_message(fmt::format("stopped by {}; no unfinished output is left",
-                              stop.signal() == SIGTERM ? "SIGTERM" : "SIGINT"));
-    return stop.exit_status();
-}
-
 int run(const RenderArguments& arguments) {
     Diagnostics diagnostics;
     Progress progress(progress_mode(arguments.progress, diagnostics));
@@ -94,8 +88,10 @@ int run(const RenderArguments& arguments) {
         return result.status;
     } catch (const Failure& f) {
         progress.end();
+        if (recorder) recorder->finish();
         if (f.error().kind != ErrorKind::kCancelled) throw;
-        return stopped(stop);
+        progress.stopped(stop.signal() == SIGTERM ? "SIGTERM" : "SIGINT");
+        return stop.exit_status();
     }
 }
 

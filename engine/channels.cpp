@@ -11,20 +11,18 @@
 
 namespace keyline {
 
-namespace {
-
-constexpr std::size_t kMostListed = 12;
-
-using Names = std::span<const std::string>;
-using Words = std::vector<std::string>;
-
-// As listed(), but bounded: some files have hundreds of channels.
-std::string some_of(const Words& words) {
+std::string some_of(const std::vector<std::string>& words) {
+    constexpr std::size_t kMostListed = 12;
     if (words.size() <= kMostListed + 1) return listed(words);
     std::string out;
     for (std::size_t i = 0; i < kMostListed; ++i) out += (i > 0 ? ", " : "") + in_quotes(words[i]);
     return fmt::format("{} and {} more", out, words.size() - kMostListed);
 }
+
+namespace {
+
+using Names = std::span<const std::string>;
+using Words = std::vector<std::string>;
 
 // "layer 'a'", "channels 'R' and 'G'"
 std::string counted(std::string_view noun, const Words& words) {

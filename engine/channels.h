@@ -42,6 +42,9 @@ struct Picked {
 // the channels that have no layer.
 std::vector<Picked> select_channels(std::span<const std::string> names, std::string_view selection);
 
+// As listed(), but bounded: some files have hundreds of channels.
+std::string some_of(const std::vector<std::string>& words);
+
 struct ColourChannels {
     std::size_t r, g, b;
     std::optional<std::size_t> a;

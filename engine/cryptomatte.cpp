@@ -35,11 +35,24 @@ std::optional<std::string> name_of_level(std::string_view layer) {
     return std::string(layer.substr(0, n - 2));
 }
 
-// The channel of a level, in lower or upper case.
+// The channel of a level, in lower or upper case; R G B A without a layer are colour.
 const StreamChannel* component(const Stream& stream, const std::string& layer, char c) {
     const std::string lower(1, c), upper(1, static_cast<char>(std::toupper(c)));
     const StreamChannel* found = stream.find(join_channel(layer, lower));
-    return found ? found : stream.find(join_channel(layer, upper));
+    if (found) return found;
+    return layer.empty() ? nullptr : stream.find(join_channel(layer, upper));
+}
+
+// Whether channels that have lost their layer may be those of a Cryptomatte called `layer`.
+bool may_be_called(const Metadata& metadata, std::string_view layer) {
+    bool none = true;
+    for (const Attribute& a : metadata.attributes()) {
+        const auto* name = std::get_if<std::string>(&a.value);
+        if (!a.name.starts_with("cryptomatte/") || !a.name.ends_with("/name") || !name) continue;
+        if (is_called(*name, layer)) return true;
+        none = false;
+    }
+    return none || layer.empty();
 }
 
 void add_ranks(const Stream& stream, const std::string& layer, std::vector<Cryptomatte::Rank>& ranks) {
@@ -97,14 +110,14 @@ std::vector<Cryptomatte> cryptomattes_of(const Stream& stream) {
 
 Cryptomatte find_cryptomatte(const Stream& stream, std::string_view layer) {
     std::vector<Cryptomatte> all = cryptomattes_of(stream);
-    // A level selected from a layer is all there is, whatever it was called there.
-    if (all.size() == 1 && all[0].name.empty()) return all[0];
+    // A level selected from a layer is all there is.
+    if (all.size() == 1 && all[0].name.empty() && may_be_called(*stream.metadata, layer)) return all[0];
     std::erase_if(all, [](const Cryptomatte& c) { return c.name.empty(); });
     std::vector<std::string> names;
     for (const Cryptomatte& c : all) names.push_back(c.name);
     if (names.empty())
         fail(ErrorKind::kGraph, "the input has no Cryptomatte",
-             "it is layers like CryptoObject00 with the channels r g b a");
+             "it is layers like CryptoObject00 with the channels r g b a: connect the whole image");
     std::erase_if(all, [&](const Cryptomatte& c) { return !layer.empty() && !is_called(c.name, layer); });
     if (all.size() == 1) return all[0];
     if (layer.empty())

@@ -55,13 +55,8 @@ FrameRun::~FrameRun() = default;
 void FrameRun::create_sinks() {
     overflowed_.resize(plan_.frame.sinks.size(), 0);
     for (const Sink& sink : plan_.frame.sinks) {
-        try {
-            sinks_.push_back(sink.request.create(sink.request.spec));
-        } catch (const Failure& f) {
-            Error e = f.error();
-            if (e.node.empty()) e.node = fmt::format("{}, frame {}", sink.title, plan_.frame.frame);
-            throw Failure(std::move(e));
-        }
+        naming(sink.title, plan_.frame.frame,
+               [&] { sinks_.push_back(sink.request.create(sink.request.spec)); });
         const ImageSink& s = *sinks_.back();
         data_.sinks.push_back(sink_bands(s));
     }
@@ -109,7 +104,7 @@ void FrameRun::run(const Job& job, TileWorker& worker) {
         const auto sink = static_cast<std::size_t>(job.which);
         const Timed time(data_.recorder, Activity::kFinish, plan_.frame.sinks[sink].title, frame, sweep,
                          worker.id());
-        sinks_[sink]->finish();
+        naming(plan_.frame.sinks[sink].title, frame, [&] { sinks_[sink]->finish(); });
     } else {
         sweep_->run(job, worker);
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace keyline {
@@ -42,9 +43,9 @@ std::map<std::string, int> outputs_of(const Graph& graph, std::span<const int> f
     return out;
 }
 
-// Whether some frame of some source is an output.
-bool may_read_one_of(const Graph& graph, std::span<const int> frames,
-                     const std::map<std::string, int>& outputs) {
+// An output that some frame of some source has the name of; "" for none.
+std::string output_with_name_of_input(const Graph& graph, std::span<const int> frames,
+                                      const std::map<std::string, int>& outputs) {
     Diagnostics ignored;
     const FrameNodes nodes = graph.at(frames.front(), ignored);
     for (const int i : graph.nodes_in_use()) {
@@ -54,10 +55,10 @@ bool may_read_one_of(const Graph& graph, std::span<const int> frames,
             std::vector<int> candidates = file.frames_on_disk();
             candidates.insert(candidates.end(), frames.begin(), frames.end());
             for (const int frame : candidates)
-                if (outputs.contains(identity_of(file.at(frame)))) return true;
+                if (outputs.contains(identity_of(file.at(frame)))) return identity_of(file.at(frame));
         }
     }
-    return false;
+    return {};
 }
 
 }  // namespace
@@ -79,22 +80,34 @@ void check_outputs(const Graph& graph, std::span<const int> frames, const Resolv
                    Diagnostics& diagnostics) {
     if (frames.size() < 2) return;
     const std::map<std::string, int> outputs = outputs_of(graph, frames);
-    if (!may_read_one_of(graph, frames, outputs)) return;
+    const std::string shared = output_with_name_of_input(graph, frames, outputs);
+    if (shared.empty()) return;
+    const auto refuse = [&](int sink, std::string what) {
+        const GraphNode& node = graph.nodes()[static_cast<std::size_t>(sink)];
+        diagnostics.error(
+            {ErrorKind::kGraph, node.place, node.title(), std::move(what), "write to another file"});
+    };
     std::set<int> told;
+    std::optional<int> unknown;
     for (const int frame : frames) {
         Diagnostics ignored;  // told when the frame's turn comes
         const auto resolved = resolve(graph, frame, options, ignored);
-        if (!resolved) continue;
+        if (!resolved) {
+            unknown = frame;
+            continue;
+        }
         for (const auto& file : inputs_of(*resolved)) {
             const auto output = outputs.find(identity_of(file));
             if (output == outputs.end() || !told.insert(output->second).second) continue;
-            const GraphNode& sink = graph.nodes()[static_cast<std::size_t>(output->second)];
-            diagnostics.error(
-                {ErrorKind::kGraph, sink.place, sink.title(),
-                 fmt::format("{} is read by frame {} of this run", in_quotes(file.string()), frame),
-                 "write to another file"});
+            refuse(output->second,
+                   fmt::format("{} is read by frame {} of this run", in_quotes(file.string()), frame));
         }
     }
+    // What can't be known is not risked: it may be the only copy of a plate.
+    if (told.empty() && unknown)
+        refuse(outputs.at(shared),
+               fmt::format("{} may be read by this run: frame {} can't be resolved to tell",
+                           in_quotes(shared), *unknown));
 }
 
 }  // namespace keyline

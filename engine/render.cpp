@@ -73,7 +73,7 @@ private:
     bool first_frame_is_sound() {
         Diagnostics diagnostics;
         check(graph_, options_.frames.front(), options_, diagnostics);
-        if (diagnostics.ok())
+        if (!any_of_graph(diagnostics.errors()))
             check_outputs(graph_, options_.frames, resolve_options(graph_, options_, false), diagnostics);
         for (const Error& w : diagnostics.warnings()) observer_.warning(w);
         if (!any_of_graph(diagnostics.errors())) return true;

@@ -27,7 +27,7 @@ struct RenderOptions {
 enum class FrameOutcome { kDone, kSkipped, kFailed };
 
 // Hears of a render as it goes.  Called by one thread at a time, any thread.  Two frames may be at work at
-// once; they end in order.
+// once; they end in order, but one that can't even be begun is told at once.
 class RenderObserver {
 public:
     virtual ~RenderObserver() = default;

@@ -3,8 +3,10 @@
 #include "engine/stats.h"
 
 #include "engine/error.h"
+#include "engine/json_writer.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 #include <vector>
@@ -28,14 +30,17 @@ std::string megabytes_text(int64_t bytes) {
     return bytes == 0 ? "" : fmt::format("{:.1f}", static_cast<double>(bytes) / (1 << 20));
 }
 
-// A JSON string: titles hold quotes of graphs' ids only, file names may hold anything.
-std::string json_string(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        if (static_cast<unsigned char>(c) >= 0x20) out += c;
-    }
-    return out + "\"";
+constexpr std::string_view kTraceBegin = "{\"traceEvents\":";
+
+// A graph or a picture given by mistake must not become a trace.
+void refuse_other_files(const std::string& name) {
+    if (!std::filesystem::is_regular_file(name)) return;
+    std::ifstream file(name);
+    std::string begin(kTraceBegin.size(), ' ');
+    file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    if (file.gcount() > 0 && begin != kTraceBegin)
+        fail(ErrorKind::kOutput, fmt::format("{} is there already, and is no profile", in_quotes(name)),
+             "give --profile another file");
 }
 
 }  // namespace
@@ -54,8 +59,10 @@ const char* activity_name(Activity activity) {
     return "sync";
 }
 
-Recorder::Recorder(std::string trace) : name_(std::move(trace)), trace_(name_) {
-    trace_ << "{\"traceEvents\": [\n";
+Recorder::Recorder(std::string trace) : name_(std::move(trace)) {
+    refuse_other_files(name_);
+    trace_.open(name_);
+    trace_ << kTraceBegin << " [\n";
     if (!trace_) fail(ErrorKind::kOutput, "cannot write the profile " + in_quotes(name_));
 }
 
@@ -72,7 +79,7 @@ void Recorder::add(const Event& e) {
         "{{\"ph\": \"X\", \"pid\": {}, \"tid\": {}, \"ts\": {:.1f}, \"dur\": {:.1f}, \"cat\": \"{}\", "
         "\"name\": {}}},\n",
         e.frame, e.worker, 1e6 * seconds_between(start_, e.begin), 1e6 * seconds, activity_name(e.activity),
-        json_string(fmt::format("{} {}", activity_name(e.activity), e.title)));
+        JsonWriter().value(fmt::format("{} {}", activity_name(e.activity), e.title)).text());
 }
 
 void Recorder::finish() {

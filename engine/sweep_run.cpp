@@ -189,13 +189,7 @@ void SweepRun::run_decode(const Job& job, int worker) const {
     std::vector<Plane> planes(op.source->header().groups[store.group].channels.size());
     for (std::size_t i = 0; i < store.values.size(); ++i)
         planes[op.source_channel[index(store.values[i].output)]] = bands.plane(job.row, i);
-    try {
-        op.source->read_chunk(store.group, job.column, job.row, planes);
-    } catch (const Failure& f) {
-        Error e = f.error();
-        if (e.node.empty()) e.node = fmt::format("{}, frame {}", op.title, op.frame);
-        throw Failure(std::move(e));
-    }
+    naming(op.title, op.frame, [&] { op.source->read_chunk(store.group, job.column, job.row, planes); });
 }
 
 void SweepRun::run_tile(const Job& job, TileWorker& worker) {
@@ -233,11 +227,13 @@ void SweepRun::run_encode(const Job& job, int worker) {
     std::vector<Plane> planes;
     if (!bands.allocated(band)) bands.allocate(band, true);
     for (std::size_t i = 0; i < bands.types().size(); ++i) planes.push_back(bands.plane(band, i));
-    EncodedChunk chunk = sinks_[index(out.sink)]->encode(job.row, planes);
-    const std::lock_guard lock(commit_mutex_);
-    out.encoded[index(job.row)] = std::move(chunk);
-    out.ready[index(job.row)] = true;
-    commit_ready(out);
+    naming(plan_.frame.sinks[index(out.sink)].title, plan_.frame.frame, [&] {
+        EncodedChunk chunk = sinks_[index(out.sink)]->encode(job.row, planes);
+        const std::lock_guard lock(commit_mutex_);
+        out.encoded[index(job.row)] = std::move(chunk);
+        out.ready[index(job.row)] = true;
+        commit_ready(out);
+    });
 }
 
 void SweepRun::commit_ready(Output& out) {

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace keyline {
@@ -35,6 +36,18 @@ struct Job {
 //
 // Rows are worked on in order and only a few at once, so that what is held stays small when nothing has to
 // outlive the sweep.  Locking is as in FrameRun.
+// Calls f; a Failure that names no node is thrown on with this one.
+template <class F>
+auto naming(const std::string& title, int frame, const F& f) {
+    try {
+        return f();
+    } catch (const Failure& failure) {
+        Error e = failure.error();
+        if (e.node.empty()) e.node = title + ", frame " + std::to_string(frame);
+        throw Failure(std::move(e));
+    }
+}
+
 class SweepRun {
 public:
     SweepRun(const Plan& plan, int sweep, FrameData& data, std::vector<std::unique_ptr<ImageSink>>& sinks);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/uv_map.h"
 
+#include "engine/channels.h"
 #include "engine/pixel_loop.h"
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ std::vector<ValueRef> uv_channels(Builder& builder, const Stream& stream) {
     if (!u || !v)
         builder.bad_parameter(
             "uv",
-            fmt::format("'uv' needs channels U and V, or S and T; its input has {}", listed(stream.names())),
+            fmt::format("'uv' needs channels U and V, or S and T; its input has {}", some_of(stream.names())),
             "select the UV pass, as in \"id:UV\"");
     std::vector<ValueRef> values{u->value, v->value};
     if (const StreamChannel* a = stream.find("A")) values.push_back(a->value);

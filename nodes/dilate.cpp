@@ -19,7 +19,8 @@ struct Dilate {
 
         static constexpr auto fields =
             declare(input(&Params::in, "in", "The image; each channel by itself."),
-                    field(&Params::radius, "radius", "The size of the brush; 0 passes the image on.", px(0, 1000).tested_to(4)),
+                    field(&Params::radius, "radius", "The size of the brush; 0 passes the image on.",
+                          px(0, 1000).tested_to(4)),
                     field(&Params::shape, "shape", "The brush."));
     };
 

@@ -197,10 +197,15 @@ Stream IdEdge::expand(Builder& builder) const {
     std::vector<Link> links(2);
     links[0].window = stream.window;
     std::optional<Cryptomatte> crypto;
+    if (stream.channels.size() == 1 && !params.layer.empty())
+        builder.bad_parameter("layer", "the input is one channel of ids, and no Cryptomatte",
+                              "leave 'layer' out, or connect the whole image");
     if (stream.channels.size() > 1) crypto = find_cryptomatte(stream, params.layer);
     links[0].values = crypto ? crypto->values() : std::vector{stream.channels[0].value};
     if (params.depth) {
         const Stream depth = builder.input(*params.depth);
+        if (depth.find("X") && depth.find("Y"))
+            builder.bad_parameter("depth", "X Y Z are no depth", "select the depth pass, as in \"id:Depth\"");
         links[1] = {depth.window, take_channels(depth, matte("Z"))};
     }
     const auto line =

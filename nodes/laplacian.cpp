@@ -13,7 +13,10 @@ namespace {
 // The second difference, of pairs of opposite neighbours.  Where one of a pair lies beyond the data window,
 // the image goes on as straight as it came: a repeated edge would bend every slope there.
 struct Laplacian {
-    static constexpr Info info{"laplacian", "How much the neighbours of a pixel are above it, summed."};
+    static constexpr Info info{
+        "laplacian",
+        "How much the neighbours of a pixel are above it, summed; beyond its edges the image "
+        "goes on straight."};
 
     struct Params {
         Input in;

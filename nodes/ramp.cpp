@@ -38,7 +38,7 @@ struct Ramp {
         double softness = 0;
 
         static constexpr auto fields = declare(
-            input(&Params::in, "in", "What is looked up: light, or any other matte."),
+            input(&Params::in, "in", "What is looked up: light, or any other matte.", matte()),
             field(
                 &Params::stops, "stops",
                 "A list of [position, colour or number], the lowest first; below the first its value holds.")

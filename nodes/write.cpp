@@ -118,13 +118,24 @@ private:
         s.depth = params.depth;
         s.compression = params.compression;
         for (const StreamChannel& c : stream.channels)
-            s.channels.push_back({c.name, type_of(builder, c.value)});
+            s.channels.push_back({c.name, type_of(builder, c, s.metadata)});
         return s;
     }
 
-    SampleType type_of(const Builder& builder, ValueRef value) const {
-        if (params.depth == Depth::kAuto) return builder.stored_type(value).value_or(SampleType::kHalf);
+    SampleType type_of(const Builder& builder, const StreamChannel& channel, const Metadata& metadata) const {
+        if (params.depth == Depth::kAuto)
+            return builder.stored_type(channel.value)
+                .value_or(is_of_cryptomatte(channel.name, metadata) ? SampleType::kFloat : SampleType::kHalf);
         return params.depth == Depth::kHalf ? SampleType::kHalf : SampleType::kFloat;
+    }
+
+    // Its ids are bits that half would round.
+    static bool is_of_cryptomatte(const std::string& channel, const Metadata& metadata) {
+        return std::ranges::any_of(metadata.attributes(), [&](const Attribute& a) {
+            const auto* name = std::get_if<std::string>(&a.value);
+            return a.name.starts_with("cryptomatte/") && a.name.ends_with("/name") && name &&
+                   channel.starts_with(*name);
+        });
     }
 
     // Without the Cryptomattes whose channels are not written: cryptomatte/ID/name is what those begin with.

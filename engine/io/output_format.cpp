@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/io/output_format.h"
 
+#include "engine/channels.h"
 #include "engine/error.h"
 
 #include <algorithm>
@@ -152,7 +153,7 @@ std::vector<std::string> letters(std::string_view set) {
     for (const std::string_view held : format.channel_sets)
         sets.push_back(held == "Y" ? "one channel of any name" : spaced(letters(held)));
     refuse(file,
-           fmt::format("{} can't hold {}; it holds {}", format.name, listed(names_beside(set, channels)),
+           fmt::format("{} can't hold {}; it holds {}", format.name, some_of(names_beside(set, channels)),
                        listed(sets)),
            "leave channels out with 'channels'");
 }

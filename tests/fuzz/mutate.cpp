@@ -63,7 +63,8 @@ constexpr std::array<int64_t, 18> kExtremes = {0,
 
 int64_t extreme(Random& random) {
     const int64_t value = kExtremes[below(kExtremes.size(), random)];
-    return random() % 4 == 0 ? value + static_cast<int64_t>(random() % 9) - 4 : value;
+    if (random() % 4 != 0) return value;
+    return static_cast<int64_t>(static_cast<uint64_t>(value) + random() % 9 - 4);  // around the largest too
 }
 
 void flip_bits(Bytes& bytes, std::size_t from, std::size_t to, Random& random) {

@@ -78,6 +78,22 @@ TEST(Hatch, HangsOnCoordinates) {
         ASSERT_NEAR(out.at("matte", x, 15), counted(0.37 + (x + 0.5) / 50, 0.02, 0.2, 0.1), 1e-3) << x;
 }
 
+TEST(Hatch, TakesCoordinatesByName) {
+    const Image in = noise({0, 0, 20, 20}, {"Y"}, 1), uva = noise({0, 0, 20, 20}, {"A", "V", "U"}, 2, 0, 9);
+    Image uv({0, 0, 20, 20}, {"U", "V"});
+    for (const char* name : {"U", "V"}) uv.channel(name).samples = uva.channel(name).samples;
+    EXPECT_IMAGE(run("hatch", {}, Images{{"in", in}, {"coords", uva}}),
+                 run("hatch", {}, Images{{"in", in}, {"coords", uv}}));
+    const Json nodes{{"n", {{"type", "hatch"}, {"in", "in"}, {"coords", "colour"}}}};
+    try {
+        run_graph(nodes, "n", Images{{"in", in}, {"colour", noise({0, 0, 20, 20}, {"R", "G", "B"}, 3)}});
+        FAIL() << "accepted";
+    } catch (const Failure& f) {
+        EXPECT_NE(std::string(f.what()).find("'coords' needs channels U and V"), std::string::npos)
+            << f.what();
+    }
+}
+
 TEST(Hatch, NanHasNoStrokes) {
     EXPECT_EQ(run("hatch", {{"spacing", 2}, {"width", 2}}, ascii({"x"})).at("matte", 0, 0), 0);
     Image uv({0, 0, 1, 1}, {"U", "V"});

@@ -168,5 +168,15 @@ TEST_F(Write, ToAFormatOfOtherTypesSamplesAreConverted) {
         for (int x = 0; x < 20; ++x) EXPECT_NEAR(back.at(c, x, 7), image.at(c, x, 7), 6e-4) << c << ' ' << x;
 }
 
+// Computed samples become half, but half would round the bits that ids are.
+TEST_F(Write, IdsOfACryptomatteStayWhole) {
+    const Json nodes{{"in", {{"type", "read"}, {"file", KEYLINE_PASSES}}},
+                     {"lines", {{"type", "idedge"}, {"in", "in"}, {"layer", "CryptoObject"}}},
+                     {"out", {{"type", "write"}, {"in", "lines"}, {"file", file("out.exr")}}}};
+    EXPECT_EQ(render_files(nodes).status, 0);
+    EXPECT_EQ(result().channel("ViewLayer.CryptoObject00.r").type, SampleType::kFloat);
+    EXPECT_EQ(result().channel("edge").type, SampleType::kHalf);
+}
+
 }  // namespace
 }  // namespace keyline::testing

@@ -39,6 +39,12 @@ protected:
     }
 };
 
+TEST_F(Options, AnEmptyValueDoesNotSwallowTheNextOption) {
+    const Outcome run = render({"--root=", "--only=a"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, HasSubstr("the value of --root is empty"));
+}
+
 TEST_F(Options, AllWritesWithoutOnly) {
     EXPECT_EQ(render({}).status, 0);
     EXPECT_THAT(files(), ElementsAre("a.exr", "b.exr", "graph.json"));

@@ -37,7 +37,7 @@ TEST_F(Outputs, SigintLeavesNothing) {
     graph(kSlow);
     const Outcome run = interrupt(SIGINT);
     EXPECT_EQ(run.status, 130) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("stopped by SIGINT"));
+    EXPECT_THAT(run.err, HasSubstr(R"("signal": "SIGINT")"));
     EXPECT_THAT(files(), ElementsAre("graph.json"));
 }
 

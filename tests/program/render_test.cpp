@@ -154,6 +154,19 @@ TEST_F(Frames, SkipExistingRendersWhatIsNotAsPlanned) {
     EXPECT_THAT(keyline({"info", "out/0001/comp.0001.exr"}).out, HasSubstr("X Y Z"));
 }
 
+// Frame 1 reads a frame 0 that is not there: what frames 2 and 3 read must not be written all the same.
+TEST_F(Frames, AFrameThatFailsHidesNoneThatReadsWhatAnotherWrites) {
+    for (const int frame : {1, 2, 3}) plate(frame);
+    graph(R"("r":   { "type": "read", "file": "in/plate.####.exr", "frame": "-1" },
+             "out": { "type": "write", "in": "r:Combined", "file": "in/plate.####.exr" })");
+    const std::string before = read(folder() / "in/plate.0002.exr");
+    for (const char* frames : {"1-3", "1"}) {
+        const Outcome run = render(frames, {"--keep-going"});
+        EXPECT_NE(run.status, 0) << run.err;
+        EXPECT_EQ(read(folder() / "in/plate.0002.exr"), before);
+    }
+}
+
 TEST_F(Frames, NoFrameReadsWhatAnotherWrites) {
     for (const int frame : {0, 1, 2}) plate(frame);
     graph(R"("r":   { "type": "read", "file": "in/plate.####.exr", "frame": "-1" },

@@ -64,6 +64,25 @@ TEST_F(Report, AProfileIsATraceAndATable) {
     EXPECT_EQ(tiles, 40);
 }
 
+TEST_F(Report, AProfileReplacesProfilesOnly) {
+    sequence_graph();
+    const std::vector<std::string> render{"render", "graph.json", "--frames", "7", "--profile"};
+    const auto profile = [&](const std::string& file) {
+        std::vector<std::string> arguments = render;
+        arguments.push_back(file);
+        return keyline(arguments);
+    };
+    for (const char* file : {"graph.json", "in.0007.exr"}) {
+        const std::string before = read(folder() / file);
+        const Outcome run = profile(file);
+        EXPECT_EQ(run.status, 4);
+        EXPECT_THAT(run.err, HasSubstr("is no profile"));
+        EXPECT_EQ(read(folder() / file), before);
+    }
+    EXPECT_EQ(profile("trace.json").status, 0);
+    EXPECT_EQ(profile("trace.json").status, 0);
+}
+
 TEST_F(Report, AProfileThatCantBeWrittenIsAnErrorBeforeTheRender) {
     sequence_graph();
     const Outcome run = keyline({"render", "graph.json", "--frames", "7", "--profile", "none/trace.json"});

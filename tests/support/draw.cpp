@@ -50,6 +50,7 @@ std::vector<std::string> Draw::channels(const Takes& takes) {
     switch (takes.kind) {
         case Takes::Kind::kAny:
             if (one_in(3)) return {"A", "U", "V"};
+            if (one_in(3)) return {"r", "g", "b", "a"};  // of a Cryptomatte
             return one_in(2) ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B", "A"};
         case Takes::Kind::kColour:
             names = {"R", "G", "B"};

@@ -73,7 +73,7 @@ private:
             half_to_float(reinterpret_cast<const uint16_t*>(in), out, n);
         else if (type == SampleType::kUint)
             uint_to_float(reinterpret_cast<const uint32_t*>(in), out, n);
-        else
+        else if (n > 0)  // memcpy takes no null pointer, of no bytes either
             std::memcpy(out, in, n * sizeof(float));
     }
 
