@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/error.h"
 #include "engine/io/image_module.h"
+
+#include "engine/error.h"
 
 #include <gmock/gmock.h>
 
