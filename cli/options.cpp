@@ -118,15 +118,22 @@ void add_machine_options(CLI::App& command, GraphArguments& a) {
         "The most memory of the whole process, as 512M or 4G; half of the machine's when absent");
 }
 
+int frame_to_check(const LoadedGraph& loaded) {
+    if (!loaded.options.frames.empty()) return loaded.options.frames.front();
+    return loaded.graph->first_frame_on_disk().value_or(1);
+}
+
 LoadedGraph load_graph(const GraphArguments& arguments, Diagnostics& diagnostics) {
     OptionReader reader(diagnostics);
     LoadedGraph out;
     out.options = read_render_options(arguments, reader);
-    out.graph = Graph::load(arguments.graph, read_load_options(arguments, reader), diagnostics);
-    if (!diagnostics.ok()) out.graph.reset();
+    out.graph = Graph::load_what_is_sound(arguments.graph, read_load_options(arguments, reader), diagnostics);
     const char* config = std::getenv("OCIO");
     if (out.graph && out.options.ocio.empty() && out.graph->ocio().empty() && config && *config)
         out.options.ocio = config;
+    if (diagnostics.ok()) return out;
+    if (out.graph) check_what_is_sound(*out.graph, frame_to_check(out), out.options, diagnostics);
+    out.graph.reset();
     return out;
 }
 

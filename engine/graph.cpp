@@ -35,8 +35,14 @@ bool stands_in(const Place& place, const Value& value) {
 
 std::unique_ptr<const Graph> Graph::load(const std::filesystem::path& file, const LoadOptions& options,
                                          Diagnostics& diagnostics) {
+    auto graph = load_what_is_sound(file, options, diagnostics);
+    return diagnostics.ok() ? std::move(graph) : nullptr;
+}
+
+std::unique_ptr<const Graph> Graph::load_what_is_sound(const std::filesystem::path& file,
+                                                       const LoadOptions& options, Diagnostics& diagnostics) {
     try {
-        return parse(read_text(file), file.string(), file.parent_path(), options, diagnostics);
+        return parse_what_is_sound(read_text(file), file.string(), file.parent_path(), options, diagnostics);
     } catch (const Failure& f) {
         diagnostics.error(f.error());
         return nullptr;

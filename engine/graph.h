@@ -51,7 +51,12 @@ public:
     // Null where an error was found; every error is told.
     static std::unique_ptr<const Graph> load(const std::filesystem::path& file, const LoadOptions& options,
                                              Diagnostics& diagnostics);
-    // The same from text; `name` stands for the file in messages, relative paths are relative to `folder`.
+    // The same, but what is sound of a faulty graph is returned too, to find out what else is wrong: nodes
+    // with faults have no entry in at(), and links may lead nowhere.  Null where not even nodes were found.
+    static std::unique_ptr<const Graph> load_what_is_sound(const std::filesystem::path& file,
+                                                           const LoadOptions& options,
+                                                           Diagnostics& diagnostics);
+    // load() from text; `name` stands for the file in messages, relative paths are relative to `folder`.
     static std::unique_ptr<const Graph> parse(std::string_view text, const std::string& name,
                                               const std::filesystem::path& folder, const LoadOptions& options,
                                               Diagnostics& diagnostics);
@@ -86,6 +91,11 @@ public:
     std::optional<int> first_frame_on_disk() const;
 
 private:
+    static std::unique_ptr<const Graph> parse_what_is_sound(std::string_view text, const std::string& name,
+                                                            const std::filesystem::path& folder,
+                                                            const LoadOptions& options,
+                                                            Diagnostics& diagnostics);
+
     friend class GraphLoader;
     std::vector<GraphNode> nodes_;
     std::vector<int> sinks_, order_;

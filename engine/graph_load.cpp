@@ -391,6 +391,14 @@ private:
 std::unique_ptr<const Graph> Graph::parse(std::string_view text, const std::string& name,
                                           const std::filesystem::path& folder, const LoadOptions& options,
                                           Diagnostics& diagnostics) {
+    auto graph = parse_what_is_sound(text, name, folder, options, diagnostics);
+    return diagnostics.ok() ? std::move(graph) : nullptr;
+}
+
+std::unique_ptr<const Graph> Graph::parse_what_is_sound(std::string_view text, const std::string& name,
+                                                        const std::filesystem::path& folder,
+                                                        const LoadOptions& options,
+                                                        Diagnostics& diagnostics) {
     auto graph = std::make_unique<Graph>();
     graph->folder_ = options.root.empty() ? folder : options.root;
     graph->has_root_ = !options.root.empty();
@@ -400,7 +408,7 @@ std::unique_ptr<const Graph> Graph::parse(std::string_view text, const std::stri
         diagnostics.error(f.error());
     }
     diagnostics.sort_by_place();
-    return diagnostics.ok() ? std::move(graph) : nullptr;
+    return graph->links_.empty() ? nullptr : std::move(graph);
 }
 
 }  // namespace keyline

@@ -15,7 +15,10 @@ namespace keyline {
 namespace {
 
 ResolveOptions resolve_options(const Graph& graph, const RenderOptions& options, bool every_node) {
-    return {options.ocio.empty() ? graph.ocio() : options.ocio, every_node, false, true};
+    ResolveOptions out;
+    out.ocio = options.ocio.empty() ? graph.ocio() : options.ocio;
+    out.every_node = every_node;
+    return out;
 }
 
 std::optional<ResolvedFrame> resolve_checked(const Graph& graph, int frame, const ResolveOptions& options,
@@ -25,17 +28,6 @@ std::optional<ResolvedFrame> resolve_checked(const Graph& graph, int frame, cons
     check_outputs(*resolved, diagnostics);
     if (!diagnostics.ok()) return std::nullopt;
     return resolved;
-}
-
-void check_format(const Sink& sink, Diagnostics& diagnostics) {
-    try {
-        if (sink.request.check) sink.request.check(sink.request.spec);
-    } catch (const Failure& f) {
-        Error e = f.error();
-        e.place = sink.place;
-        e.node = sink.title;
-        diagnostics.error(std::move(e));
-    }
 }
 
 bool any_of_graph(const std::vector<Error>& errors) {
@@ -161,9 +153,17 @@ private:
 }  // namespace
 
 void check(const Graph& graph, int frame, const RenderOptions& options, Diagnostics& diagnostics) {
-    if (const auto resolved =
-            resolve_checked(graph, frame, resolve_options(graph, options, true), diagnostics))
-        for (const Sink& sink : resolved->sinks) check_format(sink, diagnostics);
+    ResolveOptions resolving = resolve_options(graph, options, true);
+    resolving.check_formats = true;
+    resolve_checked(graph, frame, resolving, diagnostics);
+    diagnostics.sort_by_place();
+}
+
+void check_what_is_sound(const Graph& graph, int frame, const RenderOptions& options,
+                         Diagnostics& diagnostics) {
+    ResolveOptions resolving = resolve_options(graph, options, true);
+    resolving.check_formats = resolving.faults_told = true;
+    resolve(graph, frame, resolving, diagnostics);
     diagnostics.sort_by_place();
 }
 

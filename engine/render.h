@@ -46,6 +46,11 @@ struct RenderResult {
 // links, and the outputs against each other and the inputs.
 void check(const Graph& graph, int frame, const RenderOptions& options, Diagnostics& diagnostics);
 
+// What else is wrong with a graph that is known to be faulty (Graph::load_what_is_sound): with its sound
+// nodes, their files and links.
+void check_what_is_sound(const Graph& graph, int frame, const RenderOptions& options,
+                         Diagnostics& diagnostics);
+
 // The plan for a frame.  Nothing where there was an error; it is in the diagnostics.
 std::optional<Plan> plan_frame(const Graph& graph, int frame, const RenderOptions& options,
                                Diagnostics& diagnostics);

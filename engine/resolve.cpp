@@ -81,8 +81,15 @@ private:
 
     const Node* node_at(int node, int frame) {
         auto it = nodes_.find(frame);
-        if (it == nodes_.end()) it = nodes_.emplace(frame, graph_.at(frame, diagnostics_)).first;
+        if (it == nodes_.end()) {
+            Diagnostics told;
+            it = nodes_.emplace(frame, graph_.at(frame, options_.faults_told ? told : diagnostics_)).first;
+        }
         return it->second[static_cast<std::size_t>(node)].get();
+    }
+
+    bool is_sink(int node) const {
+        return graph_.nodes()[static_cast<std::size_t>(node)].type->kind == NodeKind::kSink;
     }
 
     const ColorConfig& colors() {
@@ -112,7 +119,9 @@ public:
     const ColorConfig& colors() override { return resolver_.colors(); }
 
     Stream input(const Input& in, int frame) override {
-        const Stream& whole = resolver_.stream(resolver_.graph_.index_of(in.node), frame);
+        const int from = resolver_.graph_.index_of(in.node);
+        if (from < 0 || resolver_.is_sink(from)) throw AlreadyReported{};
+        const Stream& whole = resolver_.stream(from, frame);
         last_place_ = in.place;
         return in.selector.empty() ? whole : select(whole, in);
     }
@@ -149,6 +158,7 @@ public:
     }
 
     void add_sink(SinkRequest request) override {
+        if (resolver_.options_.check_formats) check_format(request);
         resolver_.result_.sinks.push_back({title(), node_.place, std::move(request)});
     }
 
@@ -191,6 +201,17 @@ public:
     }
 
 private:
+    void check_format(const SinkRequest& request) {
+        try {
+            if (request.check) request.check(request.spec);
+        } catch (const Failure& f) {
+            Error e = f.error();
+            e.place = node_.place;
+            e.node = title();
+            resolver_.diagnostics_.error(std::move(e));
+        }
+    }
+
     Stream select(const Stream& whole, const Input& in) {
         Stream out = whole;
         out.channels.clear();

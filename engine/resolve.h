@@ -60,6 +60,8 @@ struct ResolveOptions {
     bool every_node = false;           // resolve those too that nothing written uses
     bool known_sound = false;          // for another frame: a layer that is missing now is its file's fault
     bool leave_out_identities = true;  // nodes that say they change nothing
+    bool check_formats = false;        // whether the files written can hold what they are given
+    bool faults_told = false;          // those of the graph: only what is sound of it is looked at
 };
 
 // Forward: display windows, data windows and channels of every stream, from the files' headers alone.  Faults
