@@ -45,14 +45,9 @@ const StreamChannel* component(const Stream& stream, const std::string& layer, c
 
 // Whether channels that have lost their layer may be those of a Cryptomatte called `layer`.
 bool may_be_called(const Metadata& metadata, std::string_view layer) {
-    bool none = true;
-    for (const Attribute& a : metadata.attributes()) {
-        const auto* name = std::get_if<std::string>(&a.value);
-        if (!a.name.starts_with("cryptomatte/") || !a.name.ends_with("/name") || !name) continue;
-        if (is_called(*name, layer)) return true;
-        none = false;
-    }
-    return none || layer.empty();
+    const std::vector<CryptomatteEntry> entries = cryptomatte_entries(metadata);
+    return entries.empty() || layer.empty() ||
+           std::ranges::any_of(entries, [&](const CryptomatteEntry& e) { return is_called(e.name, layer); });
 }
 
 void add_ranks(const Stream& stream, const std::string& layer, std::vector<Cryptomatte::Rank>& ranks) {
@@ -89,6 +84,17 @@ uint32_t cryptomatte_id(std::string_view name) {
 std::vector<ValueRef> Cryptomatte::values() const {
     std::vector<ValueRef> out;
     for (const Rank& r : ranks) out.insert(out.end(), {r.id, r.coverage});
+    return out;
+}
+
+std::vector<CryptomatteEntry> cryptomatte_entries(const Metadata& metadata) {
+    constexpr std::string_view kName = "/name";
+    std::vector<CryptomatteEntry> out;
+    for (const Attribute& a : metadata.attributes()) {
+        const auto* name = std::get_if<std::string>(&a.value);
+        if (name && a.name.starts_with("cryptomatte/") && a.name.ends_with(kName))
+            out.push_back({a.name.substr(0, a.name.size() - kName.size() + 1), *name});
+    }
     return out;
 }
 

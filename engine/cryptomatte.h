@@ -36,6 +36,13 @@ struct Cryptomatte {
     std::vector<ValueRef> values() const;
 };
 
+// What the metadata say of one: what its attributes' names begin with, "cryptomatte/ID/", and its name, which
+// the channels begin with.
+struct CryptomatteEntry {
+    std::string prefix, name;
+};
+std::vector<CryptomatteEntry> cryptomatte_entries(const Metadata& metadata);
+
 // The Cryptomattes of a stream: layers that differ in their last two digits, 00 01 02 …, with the channels
 // r g b a (or R G B A): two ranks of id and coverage.
 std::vector<Cryptomatte> cryptomattes_of(const Stream& stream);

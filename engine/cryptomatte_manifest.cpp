@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cryptomatte.h"
 #include "engine/error.h"
+#include "engine/graph_json.h"
 
 #include <algorithm>
 #include <charconv>
@@ -13,121 +14,28 @@ namespace keyline {
 
 namespace {
 
-// A flat JSON object of strings; manifests of 100,000 names are usual, so nothing is built but the names.
-class ManifestScanner {
-public:
-    explicit ManifestScanner(std::string_view text) : text_(text) {}
+[[noreturn]] void fault(const Place& place, std::string_view what) {
+    fail(ErrorKind::kInput,
+         fmt::format("line {}, column {} of the Cryptomatte manifest, a JSON object of ids: {}", place.line,
+                     place.column, what));
+}
 
-    std::vector<std::pair<std::string, uint32_t>> entries() {
-        std::vector<std::pair<std::string, uint32_t>> out;
-        expect('{');
-        if (!accept('}')) {
-            do {
-                std::string name = string();
-                expect(':');
-                const std::string id = string();
-                out.emplace_back(std::move(name), number(id));
-            } while (accept(','));
-            expect('}');
-        }
-        skip_blanks();
-        if (at_ != text_.size()) fault("text after its end");
-        return out;
+Value parse_manifest(std::string_view json) {
+    try {
+        return parse_json(json, {});
+    } catch (const Failure& f) {
+        fault(f.error().place, f.error().what);
     }
+}
 
-private:
-    [[noreturn]] void fault(std::string_view what) const {
-        fail(ErrorKind::kInput,
-             fmt::format("the Cryptomatte manifest is no JSON object of ids: {} at byte {}", what, at_));
-    }
-
-    void skip_blanks() {
-        while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
-            ++at_;
-    }
-
-    bool accept(char c) {
-        skip_blanks();
-        if (at_ == text_.size() || text_[at_] != c) return false;
-        ++at_;
-        return true;
-    }
-
-    void expect(char c) {
-        if (!accept(c)) fault(fmt::format("'{}' is missing", c));
-    }
-
-    char next() {
-        if (at_ == text_.size()) fault("it ends early");
-        return text_[at_++];
-    }
-
-    std::string string() {
-        expect('"');
-        std::string out;
-        for (char c = next(); c != '"'; c = next()) {
-            if (c == '\\')
-                append_escaped(out);
-            else
-                out += c;
-        }
-        return out;
-    }
-
-    void append_escaped(std::string& out) {
-        static constexpr std::string_view kLetters = "\"\\/bfnrt", kMeanings = "\"\\/\b\f\n\r\t";
-        const char c = next();
-        if (c == 'u') return append_utf8(out, code_point());
-        const std::size_t i = kLetters.find(c);
-        if (i == std::string_view::npos) fault("an unknown escape");
-        out += kMeanings[i];
-    }
-
-    uint32_t code_point() {
-        const uint32_t first = four_digits();
-        if (first < 0xD800 || first > 0xDBFF) return first;
-        if (next() != '\\' || next() != 'u') fault("half a surrogate pair");
-        return 0x10000 + ((first - 0xD800) << 10) + ((four_digits() - 0xDC00) & 0x3FF);
-    }
-
-    uint32_t four_digits() {
-        if (text_.size() - at_ < 4) fault("it ends early");
-        at_ += 4;
-        return hexadecimal(text_.substr(at_ - 4, 4));
-    }
-
-    uint32_t number(const std::string& id) const {
-        if (id.empty() || id.size() > 8) fault(fmt::format("{} is no id", in_quotes(id)));
-        return hexadecimal(id);
-    }
-
-    uint32_t hexadecimal(std::string_view digits) const {
-        uint32_t value = 0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
-        if (error != std::errc{} || end != digits.data() + digits.size())
-            fault(fmt::format("{} is no hexadecimal number", in_quotes(digits)));
-        return value;
-    }
-
-    static void append_utf8(std::string& out, uint32_t c) {
-        const auto tail = [&](int shift) { out += static_cast<char>(0x80 | (c >> shift & 0x3F)); };
-        if (c < 0x80) {
-            out += static_cast<char>(c);
-        } else if (c < 0x800) {
-            out += static_cast<char>(0xC0 | c >> 6);
-            tail(0);
-        } else if (c < 0x10000) {
-            out += static_cast<char>(0xE0 | c >> 12);
-            tail(6), tail(0);
-        } else {
-            out += static_cast<char>(0xF0 | c >> 18);
-            tail(12), tail(6), tail(0);
-        }
-    }
-
-    std::string_view text_;
-    std::size_t at_ = 0;
-};
+uint32_t id_of(const Value& v) {
+    uint32_t id = 0;
+    const char* end = v.text.data() + v.text.size();
+    const auto [rest, error] = std::from_chars(v.text.data(), end, id, 16);
+    if (!v.is(Value::Kind::kString) || error != std::errc{} || rest != end)
+        fault(v.place, v.shown() + " is no id of up to 8 hexadecimal digits, in quotes");
+    return id;
+}
 
 // Whether `text` is `pattern`, in which * stands for any characters.
 bool matches(std::string_view text, std::string_view pattern) {
@@ -157,12 +65,10 @@ std::string string_of(const Metadata& metadata, const std::string& name) {
 // "cryptomatte/ID/" of the Cryptomatte; empty where the metadata do not tell of it.
 std::string prefix_of(const Metadata& metadata, const Cryptomatte& matte, std::string_view layer) {
     std::vector<std::string> prefixes;
-    for (const Attribute& a : metadata.attributes()) {
-        if (!a.name.starts_with("cryptomatte/") || !a.name.ends_with("/name")) continue;
-        const std::string name = string_of(metadata, a.name);
+    for (const auto& [prefix, name] : cryptomatte_entries(metadata)) {
         const bool is_it = matte.name.empty() ? layer.empty() || is_called(name, layer)
                                               : is_called(matte.name, name) || is_called(name, matte.name);
-        if (is_it) prefixes.push_back(a.name.substr(0, a.name.size() - 4));
+        if (is_it) prefixes.push_back(prefix);
     }
     return prefixes.size() == 1 ? prefixes[0] : "";
 }
@@ -190,8 +96,10 @@ std::optional<CryptomatteManifest> CryptomatteManifest::find(const Stream& strea
 }
 
 CryptomatteManifest CryptomatteManifest::parse(std::string_view json) {
+    Value root = parse_manifest(json);
+    if (!root.is(Value::Kind::kObject)) fault(root.place, root.shown() + " is no object");
     CryptomatteManifest manifest;
-    manifest.entries_ = ManifestScanner(json).entries();
+    for (Member& m : root.members) manifest.entries_.emplace_back(std::move(m.key), id_of(m.value));
     std::ranges::sort(manifest.entries_);
     return manifest;
 }

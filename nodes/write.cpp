@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/channels.h"
 #include "engine/color_operation.h"
+#include "engine/cryptomatte.h"
 #include "engine/node_adaptor.h"
 
 #include <algorithm>
@@ -11,13 +12,13 @@
 namespace keyline {
 
 constexpr auto words(Depth) {
-    return std::array{
-        Word<Depth>{"auto", Depth::kAuto,
-                    "the file's own type for what passed untouched, else half, or the best the format holds"},
-        Word<Depth>{"half", Depth::kHalf, "16-bit float"},
-        Word<Depth>{"float", Depth::kFloat, "32-bit float"},
-        Word<Depth>{"uint8", Depth::kUint8, "8 bits, 0 to 1"},
-        Word<Depth>{"uint16", Depth::kUint16, "16 bits, 0 to 1"}};
+    return std::array{Word<Depth>{"auto", Depth::kAuto,
+                                  "the file's own type for what passed untouched, else half (a Cryptomatte's "
+                                  "channels float), or the best the format holds"},
+                      Word<Depth>{"half", Depth::kHalf, "16-bit float"},
+                      Word<Depth>{"float", Depth::kFloat, "32-bit float"},
+                      Word<Depth>{"uint8", Depth::kUint8, "8 bits, 0 to 1"},
+                      Word<Depth>{"uint16", Depth::kUint16, "16 bits, 0 to 1"}};
 }
 
 namespace {
@@ -104,10 +105,8 @@ private:
     }
 
     static std::string there_are(const std::string& wanted, const std::vector<std::string>& names) {
-        constexpr std::size_t kMostListed = 12;
         std::string hint = did_you_mean(wanted, names);
-        if (!hint.empty() || names.empty() || names.size() > kMostListed) return hint;
-        return "there are the channels " + listed(names);
+        return hint.empty() ? "there are the channels " + some_of(names) : hint;
     }
 
     SinkSpec spec(const Builder& builder, const Stream& stream) const {
@@ -131,31 +130,24 @@ private:
 
     // Its ids are bits that half would round.
     static bool is_of_cryptomatte(const std::string& channel, const Metadata& metadata) {
-        return std::ranges::any_of(metadata.attributes(), [&](const Attribute& a) {
-            const auto* name = std::get_if<std::string>(&a.value);
-            return a.name.starts_with("cryptomatte/") && a.name.ends_with("/name") && name &&
-                   channel.starts_with(*name);
-        });
+        return std::ranges::any_of(cryptomatte_entries(metadata),
+                                   [&](const CryptomatteEntry& e) { return channel.starts_with(e.name); });
     }
 
-    // Without the Cryptomattes whose channels are not written: cryptomatte/ID/name is what those begin with.
+    // Without the Cryptomattes whose channels are not written.
     static Metadata still_true(Metadata metadata, const Stream& stream) {
-        std::vector<std::string> gone;
-        for (const Attribute& a : metadata.attributes()) {
-            if (!a.name.starts_with("cryptomatte/") || !a.name.ends_with("/name")) continue;
-            const auto* name = std::get_if<std::string>(&a.value);
-            const bool there = name && std::ranges::any_of(stream.channels, [&](const StreamChannel& c) {
-                                   return c.name.starts_with(*name);
-                               });
-            if (!there) gone.push_back(a.name.substr(0, a.name.size() - 4));
-        }
-        for (const std::string& prefix : gone) {
-            std::vector<std::string> names;
-            for (const Attribute& a : metadata.attributes())
-                if (a.name.starts_with(prefix)) names.push_back(a.name);
-            for (const std::string& name : names) metadata.erase(name);
+        for (const auto& [prefix, name] : cryptomatte_entries(metadata)) {
+            const auto is_its = [&n = name](const StreamChannel& c) { return c.name.starts_with(n); };
+            if (!std::ranges::any_of(stream.channels, is_its)) erase_all(prefix, metadata);
         }
         return metadata;
+    }
+
+    static void erase_all(const std::string& prefix, Metadata& metadata) {
+        std::vector<std::string> names;
+        for (const Attribute& a : metadata.attributes())
+            if (a.name.starts_with(prefix)) names.push_back(a.name);
+        for (const std::string& name : names) metadata.erase(name);
     }
 };
 
