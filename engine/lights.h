@@ -58,6 +58,11 @@ struct Surface {
     Input normal;
 };
 
+// Whether an optional port is this one.
+inline bool is_input(const std::optional<Input>& port, const Input& in) {
+    return port && port->slot == in.slot;
+}
+
 // The inputs of Surface, then the node's own fields.
 template <class... Fields>
 constexpr auto declare_surface(Fields... own) {
@@ -126,6 +131,9 @@ public:
         std::optional<Input> shadow;
     };
     const std::vector<Item>& items() const { return items_; }
+    bool need_position() const {
+        return std::ranges::any_of(items_, [](const Item& light) { return !light.toward; });
+    }
     std::size_t size() const { return items_.size(); }
 
 private:

@@ -94,6 +94,7 @@ std::vector<Link> make_links(const std::vector<Port>& ports) {
     for (const Port& port : ports) {
         try {
             links.push_back({port.stream.window, take_channels(port.stream, port.takes)});
+            if (!port.needed) links.back().values.clear();
         } catch (const Failure& f) {
             Error e = f.error();
             e.place = port.place;

@@ -175,7 +175,8 @@ struct Port {
     Takes takes;
     bool leading = false, connected = false;
     Stream stream;
-    Place place = {};  // of the input in the graph
+    Place place = {};    // of the input in the graph
+    bool needed = true;  // no: it is checked, and never read
 };
 
 // Channels that a node makes, and where the others of the result come from.
@@ -318,7 +319,16 @@ private:
         else if constexpr (CompoundNode<T>)
             return node->expand(builder);
         else
-            return add_operation(builder, node, detail::connect(builder, params_, slots_));
+            return add_operation(builder, node, needed(*node, detail::connect(builder, params_, slots_)));
+    }
+
+    // What makes no difference with these parameters need not be computed.
+    std::vector<Port> needed(const T& node, std::vector<Port> ports) const {
+        if constexpr (requires(const Input& in) { node.needs(in); })
+            for_each<Input>(params_, [&](const Input& in, const char*, const Constraint&) {
+                ports[static_cast<std::size_t>(in.slot)].needed = node.needs(in);
+            });
+        return ports;
     }
 
     std::shared_ptr<const T> prepare(Context& context) const {

@@ -62,6 +62,7 @@ struct Cel {
 
     explicit Cel(const Params& p) : params(p), lights(p.lights), tones(tones_of(p)) {}
 
+    bool needs(const Input& in) const { return lights.need_position() || !is_input(params.position, in); }
     double cost() const { return 40 + 25.0 * static_cast<double>(lights.size()); }
 
     void compute(const Inputs& in, Outputs out, Scratch& scratch) const {

@@ -36,6 +36,7 @@ struct Gooch {
           lights(p.lights),
           tones{{p.cool.r, p.cool.g, p.cool.b}, {p.warm.r, p.warm.g, p.warm.b}, p.alpha, p.beta} {}
 
+    bool needs(const Input& in) const { return lights.need_position() || !is_input(params.position, in); }
     double cost() const { return 40 + 12.0 * static_cast<double>(lights.size()); }
 
     void compute(const Inputs& in, Outputs out, Scratch& scratch) const {

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/plan.h"
+#include "engine/resolve.h"
 #include "tests/nodes/shading_reference.h"
 
 #include <gmock/gmock.h>
@@ -142,6 +144,27 @@ TEST(Cel, ALightInThePixelItselfIsSeenFromTheSide) {
     scene.images["position"] = Image({0, 0, 1, 1}, {"X", "Y", "Z"});
     scene.lights = {{.position = V3{0, 0, 0}, .falloff = 2}};
     EXPECT_EQ(scene.run("cel", {{"transition", Json::verbatim("null")}}).at("R", 0, 0), 0.125F);
+}
+
+// What no light asks for is not decoded.
+TEST(Cel, PositionsAreReadForLightsThatHaveOneOnly) {
+    const Scene scene = random_scene({0, 0, 20, 20}, 1, false);
+    Sequences inputs;
+    for (const char* name : {"albedo", "normal", "position"}) inputs[name] = {scene.images.at(name)};
+    const auto channels_read = [&](const char* lights) {
+        const Json nodes{{"n",
+                          {{"type", "cel"},
+                           {"albedo", "albedo"},
+                           {"normal", "normal"},
+                           {"position", "position"},
+                           {"lights", Json::verbatim(lights)}}}};
+        std::size_t read = 0;
+        for (const Store& store : make_plan(resolve_graph(nodes, {"n"}, inputs), {}).stores)
+            read += store.values.size();
+        return read;
+    };
+    EXPECT_EQ(channels_read(R"([{ "direction": [0, 0, 1] }])"), 6U);
+    EXPECT_EQ(channels_read(R"([{ "direction": [0, 0, 1] }, { "position": [0, 0, 1] }])"), 9U);
 }
 
 TEST(Cel, RefusesLightsThatAreNowhereOrInTwoPlaces) {
