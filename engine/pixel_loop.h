@@ -12,6 +12,10 @@ namespace keyline {
 // has one NaN only.
 inline float with_one_nan(float v) { return v == v ? v : std::numeric_limits<float>::quiet_NaN(); }
 
+// The smaller and the larger of two; NaN is passed over.
+inline float smaller(float a, float b) { return a < b || b != b ? a : b; }
+inline float larger(float a, float b) { return a > b || b != b ? a : b; }
+
 // out = f(a, b, …), pixel by pixel, over the rectangle of `out`, which the inputs cover and do not overlap.
 template <class F, class... Ins>
 void for_each_pixel(const MutView& out, F&& f, const Ins&... in) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // Surface coordinates, and how much of a surface a pixel sees: what patterns are drawn with.
 
@@ -71,6 +72,11 @@ private:
 
 // The mean colour of what a pixel sees, not premultiplied.
 using PatternColor = std::array<double, 3>;
+
+// Where coordinates are not finite.
+inline constexpr PatternColor kNoColor{std::numeric_limits<double>::quiet_NaN(),
+                                       std::numeric_limits<double>::quiet_NaN(),
+                                       std::numeric_limits<double>::quiet_NaN()};
 
 inline PatternColor pattern_color(const Color& c) { return {c.r, c.g, c.b}; }
 

@@ -101,15 +101,10 @@ private:
 
     PatternColor color(const UvPlace& place) const {
         const WallPlace wall = wall_at(place);
-        if (!std::isfinite(wall.s.at) || !std::isfinite(wall.t.at)) return not_a_color();
+        if (!std::isfinite(wall.s.at) || !std::isfinite(wall.t.at)) return kNoColor;
         const double far = smooth_step(36, 100, wall.cells());
         const PatternColor near_color = far < 1 ? brick_by_brick(wall) : PatternColor{};
         return far > 0 ? mix(near_color, all_bricks(wall), far) : near_color;
-    }
-
-    static PatternColor not_a_color() {
-        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-        return {kNan, kNan, kNan};
     }
 
     static double shift(double row) { return row - 2 * std::floor(row / 2) > 0 ? 0.5 : 0; }

@@ -61,8 +61,8 @@ float of_two(float a, float b) {
         case kSubtract: return a - b;
         case kMultiply: return a * b;
         case kDivide: return b == 0 ? 0 : a / b;
-        case kMin: return a < b || b != b ? a : b;
-        case kMax: return a > b || b != b ? a : b;
+        case kMin: return smaller(a, b);
+        case kMax: return larger(a, b);
         default: return static_cast<float>(elementary::pow(double{a}, double{b}));
     }
 }

@@ -67,9 +67,6 @@ struct Pair {
     float alone() const { return a * (1 - beta) + b * (1 - alpha); }
 };
 
-float smaller(float a, float b) { return a < b || b != b ? a : b; }
-float larger(float a, float b) { return a > b || b != b ? a : b; }
-
 float hardlight(const Pair& p) {
     const float dark = 2 * p.a * p.b, light = p.alpha * p.beta - 2 * (p.beta - p.b) * (p.alpha - p.a);
     return (2 * p.a <= p.alpha ? dark : light) + p.alone();

@@ -105,7 +105,7 @@ private:
         const GrainPlace one{extent(place.u * scale, right.u, down.u),
                              extent(place.v * scale, right.v, down.v), right, down};
         const GrainPlace other{one.along, one.across, {right.v, right.u}, {down.v, down.u}};
-        if (!std::isfinite(one.across.at) || !std::isfinite(one.along.at)) return not_a_color();
+        if (!std::isfinite(one.across.at) || !std::isfinite(one.along.at)) return kNoColor;
 
         const double size = std::max(one.across.size, one.along.size);
         const double tiles = (one.across.size + 2) * (one.along.size + 2);
@@ -114,11 +114,6 @@ private:
         if (far < 1) add_tiles(one, other, sum);
         const PatternColor near_color = with_gaps(sum);
         return far > 0 ? mix(near_color, mean_color(), far) : near_color;
-    }
-
-    static PatternColor not_a_color() {
-        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-        return {kNan, kNan, kNan};
     }
 
     PatternColor with_gaps(const Sum& sum) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/error.h"
 #include "engine/io/color.h"
+#include "tests/support/failure.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -44,17 +45,6 @@ colorspaces:
     name: dark
     from_scene_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
 )yaml";
-
-template <class F>
-Error error_of(F&& f) {
-    try {
-        f();
-    } catch (const Failure& failure) {
-        return failure.error();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
 
 TEST(BuiltinColorConfig, HasTheSpacesDisplaysAndViewsThatItPromises) {
     const auto config = ColorConfig::builtin();

@@ -5,6 +5,7 @@
 #include "engine/error.h"
 #include "engine/io/image_sink.h"
 #include "engine/io/image_source.h"
+#include "tests/support/failure.h"
 
 #include <filesystem>
 #include <memory>
@@ -39,17 +40,6 @@ void write(const std::filesystem::path& file, const Pixels& pixels, const SinkSp
 // All channels of the first group, half converted to float.
 Pixels read(const ImageSource& source);
 Pixels read(const std::filesystem::path& file);
-
-// The Failure that is expected.
-template <class F>
-Error error_of(F&& f) {
-    try {
-        f();
-    } catch (const Failure& failure) {
-        return failure.error();
-    }
-    return {ErrorKind::kInternal, {}, {}, "nothing was thrown", {}};
-}
 
 // A folder that goes with its contents.
 class Folder {
