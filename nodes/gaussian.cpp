@@ -4,6 +4,7 @@
 #include "engine/simd/convolve.h"
 #include "engine/simd/elementary.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace keyline {
@@ -18,6 +19,53 @@ simd::Taps gaussian_taps(double sigma) {
     for (int d = 1; d <= radius; ++d) half.push_back(elementary::exp(-0.5 * (d / sigma) * (d / sigma)));
     return simd::Taps(half);
 }
+
+// The input blurred in x: as many rows as one output row needs, which stay in the nearest cache.
+class BlurredRows {
+public:
+    BlurredRows(const View& in, const Rect& out, const simd::Taps& taps, int reach, Scratch& scratch)
+        : in_(in),
+          out_(out),
+          taps_(taps),
+          reach_(reach),
+          padded_(scratch.floats(simd::padded_floats(out.width(), taps))),
+          ring_(scratch.take<float*>(2 * count())),
+          edge_(scratch.take<const float*>(count())),
+          next_(in.rect.y0) {
+        const std::size_t stride = (static_cast<std::size_t>(out.width()) + 15) / 16 * 16;
+        float* const rows = scratch.floats(stride * count()).data();
+        for (std::size_t i = 0; i < ring_.size(); ++i) ring_[i] = rows + i % count() * stride;
+    }
+
+    // Pointers to the rows around `y`, the one returned to its own; null where there is none.  For one y
+    // after the other.
+    const float* const* around(int y) {
+        for (; next_ < std::min(y + reach_ + 1, in_.rect.y1); ++next_)
+            simd::convolve_row(in_.at(out_.x0, next_), *ring_at(next_), out_.width(),
+                               simd::margin_x(in_, out_), taps_, padded_.data());
+        if (y - reach_ >= in_.rect.y0 && y + reach_ < in_.rect.y1) return ring_at(y - reach_) + reach_;
+        for (int k = -reach_; k <= reach_; ++k)
+            edge_[static_cast<std::size_t>(k + reach_)] =
+                y + k < in_.rect.y0 || y + k >= in_.rect.y1 ? nullptr : *ring_at(y + k);
+        return edge_.data() + reach_;
+    }
+
+private:
+    std::size_t count() const { return 2 * static_cast<std::size_t>(reach_) + 1; }
+    float* const* ring_at(int y) const {
+        const int from_first = y - in_.rect.y0;
+        return ring_.data() + static_cast<std::size_t>(from_first) % count();
+    }
+
+    const View& in_;
+    const Rect out_;
+    const simd::Taps& taps_;
+    const int reach_;
+    const std::span<float> padded_;
+    const std::span<float*> ring_;  // twice around, so that any row has the others after it
+    const std::span<const float*> edge_;
+    int next_;  // the first row that is not blurred yet
+};
 
 // Gaussian blur: a pass in x, then one in y, each channel by itself.
 struct Gaussian {
@@ -40,12 +88,10 @@ struct Gaussian {
     double cost() const { return 2.0 * (x.radius() + y.radius()); }
 
     void compute(const View& in, const MutView& out, Scratch& scratch) const {
-        const Rect rows{out.rect.x0, in.rect.y0, out.rect.x1, in.rect.y1};
-        const std::ptrdiff_t stride = rows.width();
-        const MutView blurred{scratch.floats(static_cast<std::size_t>(rows.area())).data(), stride, rows,
-                              in.window};
-        simd::convolve_x(in, blurred, x);
-        simd::convolve_y(blurred, out, y);
+        const int n = out.rect.width();
+        BlurredRows blurred(in, out.rect, x, y.radius(), scratch);
+        for (int row = out.rect.y0; row < out.rect.y1; ++row)
+            simd::convolve_column(blurred.around(row), out.row(row), n, y);
     }
 
     const simd::Taps x, y;

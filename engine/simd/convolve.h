@@ -33,15 +33,15 @@ private:
 // and beyond that in blocks of 16 distances, each such a bracket and added in turn, so that rounding errors
 // grow with radius / 16 and not with the radius.  A pixel outside the data window counts as 0, and then the
 // result is multiplied by edge_scale().  The operations are symmetric: a mirrored image gives the mirrored
-// result, bit for bit.
-void convolve_row(const float* in, float* out, int n, Margin margin, const Taps& taps);
+// result, bit for bit.  `padded` is room for padded_floats(n, taps), used at the edge.
+void convolve_row(const float* in, float* out, int n, Margin margin, const Taps& taps, float* padded);
 
-// The same down the columns: the row above `in` stands `stride` floats before it, and `margin` counts rows.
-void convolve_column(const float* in, std::ptrdiff_t stride, float* out, int n, Margin margin,
-                     const Taps& taps);
+inline std::size_t padded_floats(int n, const Taps& taps) {
+    return static_cast<std::size_t>(n + 2 * taps.radius()) + kMostLanes;
+}
 
-// The same for regions: `in` covers out.rect grown by the radius in x (or y), clipped to the data window.
-void convolve_x(const View& in, const MutView& out, const Taps& taps);
-void convolve_y(const View& in, const MutView& out, const Taps& taps);
+// The same down the columns: rows[k] is the row k below, for k from −radius to radius; null outside the data
+// window.
+void convolve_column(const float* const* rows, float* out, int n, const Taps& taps);
 
 }  // namespace keyline::simd

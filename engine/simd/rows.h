@@ -15,6 +15,9 @@
 
 namespace keyline::simd {
 
+// Of floats in the widest vector that there is a body for.
+constexpr std::size_t kMostLanes = 16;
+
 // How many pixels beyond the first and the last can be read, in x or in y.  Fewer than a kernel's reach says
 // that the data window ends there, and nothing else: a View covers a node's whole halo, clipped to the
 // window.
