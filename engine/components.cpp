@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <span>
 
 namespace keyline {
 
@@ -13,7 +14,7 @@ namespace {
 constexpr int kNone = BlockComponents::kNone;
 
 // Union–find over consecutive numbers; the smaller root wins, paths are halved.
-int find_root(std::vector<int>& parent, int i) {
+int find_root(std::span<int> parent, int i) {
     while (parent[static_cast<std::size_t>(i)] != i) {
         int& p = parent[static_cast<std::size_t>(i)];
         p = parent[static_cast<std::size_t>(p)];
@@ -22,7 +23,7 @@ int find_root(std::vector<int>& parent, int i) {
     return i;
 }
 
-void join_roots(std::vector<int>& parent, int a, int b) {
+void join_roots(std::span<int> parent, int a, int b) {
     a = find_root(parent, a);
     b = find_root(parent, b);
     parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
@@ -34,33 +35,39 @@ uint64_t mask(int from, int to) {
     return to >= 64 ? low : low & ~(~uint64_t{0} << to);
 }
 
-// Appends the runs of a row.
-void append_runs(const BitRows& bits, int y, std::vector<Run>& runs) {
-    const uint64_t* row = bits.row(y);
-    const int x0 = bits.rect().x0;
-    int start = kNone;  // of a run, from the row's first pixel
+// Of a word of a row: the pixels whose left neighbour is not set, and those whose right neighbour is not.
+struct RunEnds {
+    uint64_t starts, ends;
+};
+RunEnds run_ends(const uint64_t* row, int w, int words) {
+    const uint64_t word = row[w], left = w > 0 ? row[w - 1] >> 63 : 0,
+                   right = w + 1 < words ? row[w + 1] << 63 : 0;
+    return {word & ~(word << 1 | left), word & ~(word >> 1 | right)};
+}
+
+std::size_t count_runs(const BitRows& bits) {
+    int count = 0;
+    for (int y = bits.rect().y0; y < bits.rect().y1; ++y)
+        for (int w = 0; w < bits.words(); ++w)
+            count += std::popcount(run_ends(bits.row(y), w, bits.words()).starts);
+    return static_cast<std::size_t>(count);
+}
+
+// Writes down the runs of a row; returns how many.
+std::size_t find_runs(const BitRows& bits, int y, Run* runs) {
+    Run *start = runs, *end = runs;
     for (int w = 0; w < bits.words(); ++w) {
-        uint64_t word = row[w];
-        // Flip once inside a run, so that the next change of either kind is the lowest set bit.
-        uint64_t changes = start == kNone ? word : ~word;
-        while (changes != 0) {
-            const int bit = std::countr_zero(changes);
-            const int x = w * 64 + bit;
-            if (start == kNone) {
-                start = x;
-            } else {
-                runs.push_back({y, x0 + start, x0 + x});
-                start = kNone;
-            }
-            changes = (start == kNone ? word : ~word) & (bit == 63 ? 0 : ~uint64_t{0} << (bit + 1));
-        }
+        auto [starts, ends] = run_ends(bits.row(y), w, bits.words());
+        const int x = bits.rect().x0 + w * 64;
+        for (; starts != 0; starts &= starts - 1) *start++ = {y, x + std::countr_zero(starts), 0};
+        for (; ends != 0; ends &= ends - 1) (end++)->x1 = x + std::countr_zero(ends) + 1;
     }
-    if (start != kNone) runs.push_back({y, x0 + start, bits.rect().x1});
+    return static_cast<std::size_t>(start - runs);
 }
 
 // Joins each run of [begin, end) with those of the row above that touch it, diagonals included.
-void join_rows(const std::vector<Run>& runs, std::size_t above, std::size_t begin, std::size_t end,
-               std::vector<int>& parent) {
+void join_rows(std::span<const Run> runs, std::size_t above, std::size_t begin, std::size_t end,
+               std::span<int> parent) {
     std::size_t a = above, b = begin;
     while (a < begin && b < end) {
         if (runs[a].x0 <= runs[b].x1 && runs[b].x0 <= runs[a].x1)
@@ -74,23 +81,26 @@ void join_rows(const std::vector<Run>& runs, std::size_t above, std::size_t begi
 
 class BlockLabeller {
 public:
-    BlockLabeller(const BitRows& pixels, const BitRows& seeds) : rect_(pixels.rect()), seeds_(seeds) {
+    BlockLabeller(const BitRows& pixels, const BitRows& seeds, Scratch& scratch)
+        : rect_(pixels.rect()),
+          runs_(scratch.take<Run>(count_runs(pixels))),
+          parent_(scratch.take<int>(runs_.size())),
+          traits_(scratch.take<uint8_t>(runs_.size())),
+          number_(scratch.take<int>(runs_.size())) {
+        std::iota(parent_.begin(), parent_.end(), 0);
         std::size_t above = 0, begin = 0;
         for (int y = rect_.y0; y < rect_.y1; ++y) {
-            append_runs(pixels, y, runs_);
-            parent_.resize(runs_.size());
-            std::iota(parent_.begin() + static_cast<std::ptrdiff_t>(begin), parent_.end(),
-                      static_cast<int>(begin));
-            join_rows(runs_, above, begin, runs_.size(), parent_);
+            const std::size_t end = begin + find_runs(pixels, y, runs_.data() + begin);
+            join_rows(runs_, above, begin, end, parent_);
             above = begin;
-            begin = runs_.size();
+            begin = end;
         }
+        settle(seeds);
     }
 
     BlockComponents result() {
         BlockComponents out;
         out.kept = BitRows(rect_);
-        mark_components();
         number_border_components(out);
         keep_and_collect(out);
         fill_borders(out);
@@ -98,48 +108,50 @@ public:
     }
 
 private:
+    static constexpr uint8_t kSeeded = 1, kAtBorder = 2;
+
     bool on_border(const Run& r) const {
         return r.y == rect_.y0 || r.y == rect_.y1 - 1 || r.x0 == rect_.x0 || r.x1 == rect_.x1;
     }
-    std::size_t root(std::size_t run) {
-        return static_cast<std::size_t>(find_root(parent_, static_cast<int>(run)));
-    }
+    std::size_t root(std::size_t run) const { return static_cast<std::size_t>(parent_[run]); }
 
-    void mark_components() {
-        seeded_.assign(runs_.size(), false);
-        touches_.assign(runs_.size(), false);
+    // Points every run at its component's root, and tells the root of what its runs have.  A parent stands
+    // before its children, so that one pass will do.
+    void settle(const BitRows& seeds) {
         for (std::size_t i = 0; i < runs_.size(); ++i) {
-            const std::size_t r = root(i);
-            if (!seeded_[r] && seeds_.any(runs_[i].y, runs_[i].x0, runs_[i].x1)) seeded_[r] = true;
-            if (on_border(runs_[i])) touches_[r] = true;
+            const Run& r = runs_[i];
+            traits_[i] = static_cast<uint8_t>((seeds.any(r.y, r.x0, r.x1) ? kSeeded : 0) |
+                                              (on_border(r) ? kAtBorder : 0));
+            parent_[i] = parent_[root(i)];
+            traits_[root(i)] |= traits_[i];
         }
     }
 
     void number_border_components(BlockComponents& out) {
-        number_.assign(runs_.size(), kNone);
         for (std::size_t i = 0; i < runs_.size(); ++i) {
-            if (root(i) != i || !touches_[i]) continue;
+            number_[i] = kNone;
+            if (root(i) != i || (traits_[i] & kAtBorder) == 0) continue;
             number_[i] = static_cast<int>(out.seeded.size());
-            out.seeded.push_back(seeded_[i]);
+            out.seeded.push_back((traits_[i] & kSeeded) != 0);
         }
     }
 
     // Runs grouped by component: counted, then placed.
     void keep_and_collect(BlockComponents& out) {
         out.first_run.assign(out.seeded.size() + 1, 0);
-        const auto is_open = [&](std::size_t r) { return number_[r] != kNone && !seeded_[r]; };
         for (std::size_t i = 0; i < runs_.size(); ++i) {
             const std::size_t r = root(i);
-            if (seeded_[r])
+            if ((traits_[r] & kSeeded) != 0)
                 out.kept.set(runs_[i].y, runs_[i].x0, runs_[i].x1);
-            else if (is_open(r))
+            else if (number_[r] != kNone)
                 ++out.first_run[static_cast<std::size_t>(number_[r]) + 1];
         }
         std::partial_sum(out.first_run.begin(), out.first_run.end(), out.first_run.begin());
         out.runs.resize(out.first_run.back());
+        if (out.runs.empty()) return;
         std::vector<std::size_t> next = out.first_run;
         for (std::size_t i = 0; i < runs_.size(); ++i)
-            if (const std::size_t r = root(i); is_open(r))
+            if (const std::size_t r = root(i); number_[r] != kNone && (traits_[r] & kSeeded) == 0)
                 out.runs[next[static_cast<std::size_t>(number_[r])]++] = runs_[i];
     }
 
@@ -164,11 +176,10 @@ private:
     }
 
     Rect rect_;
-    const BitRows& seeds_;
-    std::vector<Run> runs_;
-    std::vector<int> parent_;             // by run
-    std::vector<bool> seeded_, touches_;  // by root
-    std::vector<int> number_;             // by root: in BlockComponents
+    std::span<Run> runs_;
+    std::span<int> parent_;      // by run
+    std::span<uint8_t> traits_;  // by root: of any of its runs
+    std::span<int> number_;      // by root: in BlockComponents
 };
 
 }  // namespace
@@ -215,8 +226,8 @@ void BitRows::copy_row(int y, int x0, int n, uint64_t* to) const {
     }
 }
 
-BlockComponents find_components(const BitRows& pixels, const BitRows& seeds) {
-    return BlockLabeller(pixels, seeds).result();
+BlockComponents find_components(const BitRows& pixels, const BitRows& seeds, Scratch& scratch) {
+    return BlockLabeller(pixels, seeds, scratch).result();
 }
 
 ComponentMerger::ComponentMerger(const Rect& window)

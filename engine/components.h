@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/geometry.h"
+#include "engine/node.h"
 
 #include <cstdint>
 #include <vector>
@@ -66,7 +66,7 @@ struct BlockComponents {
 };
 
 // `seeds` is a subset of `pixels`, of the same rectangle.
-BlockComponents find_components(const BitRows& pixels, const BitRows& seeds);
+BlockComponents find_components(const BitRows& pixels, const BitRows& seeds, Scratch& scratch);
 
 // Joins blocks added in row-major order of one grid over the window.
 class ComponentMerger {

@@ -86,9 +86,9 @@ struct Hysteresis {
                (units == Units::kPercentile ? RankSearch::bytes() : 0);
     }
 
-    Partial map(const State& state, const Inputs& inputs, const Rect& block, Scratch&) const {
+    Partial map(const State& state, const Inputs& inputs, const Rect& block, Scratch& scratch) const {
         const View& view = inputs[in][0];
-        if (state.round == rounds() - 1) return components(state, view, block);
+        if (state.round == rounds() - 1) return components(state, view, block, scratch);
         if (units == Units::kMax) return largest(view);
         return state.ranks.count(view);
     }
@@ -130,12 +130,13 @@ struct Hysteresis {
     const Units units;
 
 private:
-    static BlockComponents components(const State& state, const View& view, const Rect& block) {
+    static BlockComponents components(const State& state, const View& view, const Rect& block,
+                                      Scratch& scratch) {
         BitRows weak(block), strong(block);
         for (int y = block.y0; y < block.y1; ++y)
             simd::threshold_row(view.row(y), block.width(), state.low, state.high, weak.row(y),
                                 strong.row(y));
-        return find_components(weak, strong);
+        return find_components(weak, strong, scratch);
     }
 
     static float largest(const View& view) {

@@ -58,11 +58,13 @@ BitRows cut(const BitRows& from, const Rect& block) {
 BitRows merged(const Bitmaps& in, int width, int height) {
     const Rect& w = in.pixels.rect();
     ComponentMerger merger(w);
+    Scratch scratch;
     for (int row = floor_div(w.y0, height); row * height < w.y1; ++row)
         for (int column = floor_div(w.x0, width); column * width < w.x1; ++column) {
             const Rect block =
                 intersect(w, {column * width, row * height, (column + 1) * width, (row + 1) * height});
-            merger.add(find_components(cut(in.pixels, block), cut(in.seeds, block)));
+            merger.add(find_components(cut(in.pixels, block), cut(in.seeds, block), scratch));
+            scratch.reset();
         }
     merger.finish();
     return merger.kept();
