@@ -88,6 +88,8 @@ private:
     std::span<const Range> slots_;
 };
 
+// What compute() fills.  The rows of an output that nobody reads lie on each other (their stride is 0): a
+// node may read back the row that it has just written, and no other.
 using Outputs = std::span<const MutView>;
 
 // A whole-frame node's memory: of one block (what map() makes of it), or of the frame (what fold() makes of

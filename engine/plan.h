@@ -47,7 +47,8 @@ struct Step {
     int output = 0;          // kLoad: of the operation
     int store = -1;          // kLoad: from this store
     int plane = 0;           // kLoad: and its plane
-    std::vector<int> slots;  // scratch buffers of the outputs
+    std::vector<int> slots;  // scratch buffers of the outputs, or kUnwanted
+    static constexpr int kUnwanted = -1;
 };
 
 // Where a value read by a step, or leaving a tile, comes from.

@@ -35,6 +35,7 @@ std::size_t scratch_bytes(const Plan& plan, const Sweep& sweep) {
         const auto bytes = static_cast<std::size_t>(regions[i].area()) * sizeof(float);
         largest = std::max(largest, bytes);
         for (const int s : sweep.steps[i].slots) {
+            if (s == Step::kUnwanted) continue;
             std::size_t& slot = slots[static_cast<std::size_t>(s)];
             slot = std::max(slot, bytes);
         }

@@ -3,6 +3,7 @@
 #include "engine/sweeps.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -294,7 +295,8 @@ private:
         Step step;
         step.kind = is_reduction(i) ? Step::Kind::kApply : Step::Kind::kCompute;
         step.op = i;
-        step.slots.resize(op(i).outputs.size());
+        for (int o = 0; o < static_cast<int>(op(i).outputs.size()); ++o)
+            step.slots.push_back(demand_.of({i, o}).empty() ? Step::kUnwanted : 0);
         std::vector<Operand> operands;
         if (step.kind == Step::Kind::kCompute)
             for (const Link& link : op(i).links)
@@ -326,13 +328,14 @@ private:
         std::vector<int> free;
         for (std::size_t i = 0; i < n; ++i) {
             for (int& slot : sweep.steps[i].slots) {
+                if (slot == Step::kUnwanted) continue;
                 if (free.empty()) free.push_back(sweep.slots++);
                 slot = free.back();
                 free.pop_back();
             }
             for (std::size_t j = 0; j <= i; ++j)
                 if (last[j] == i)
-                    free.insert(free.end(), sweep.steps[j].slots.begin(), sweep.steps[j].slots.end());
+                    std::ranges::remove_copy(sweep.steps[j].slots, std::back_inserter(free), Step::kUnwanted);
         }
     }
 

@@ -71,17 +71,26 @@ Timed TileWorker::timed(Activity activity, const std::string& title) const {
     return {data_->recorder, activity, title, plan_->frame.frame, sweep, id_};
 }
 
-MutView TileWorker::buffer(int slot, const Rect& rect, const Rect& window) {
-    Buffer& b = buffers_[static_cast<std::size_t>(slot)];
-    const std::ptrdiff_t stride = stride_of(rect);
-    const std::size_t size =
-        static_cast<std::size_t>(stride) * static_cast<std::size_t>(rect.height()) + kSlack;
-    if (b.size < size) {
-        b.memory.reset();  // first, so that old and new never stand beside each other
-        b.memory = make_aligned<float>(size);
-        b.size = size;
+float* TileWorker::Buffer::with(std::size_t floats) {
+    if (size < floats) {
+        memory.reset();  // first, so that old and new never stand beside each other
+        memory = make_aligned<float>(floats);
+        size = floats;
     }
-    return {b.memory.get(), stride, rect, window};
+    return memory.get();
+}
+
+MutView TileWorker::buffer(int slot, const Rect& rect, const Rect& window) {
+    const std::ptrdiff_t stride = stride_of(rect);
+    const auto rows = static_cast<std::size_t>(rect.height());
+    return {buffers_[static_cast<std::size_t>(slot)].with(static_cast<std::size_t>(stride) * rows + kSlack),
+            stride, rect, window};
+}
+
+// All rows lie on each other: what nobody reads takes no way through memory.
+MutView TileWorker::unwanted(std::size_t output, const Rect& rect, const Rect& window) {
+    unwanted_.resize(std::max(unwanted_.size(), output + 1));
+    return {unwanted_[output].with(static_cast<std::size_t>(stride_of(rect)) + kSlack), 0, rect, window};
 }
 
 void TileWorker::run_step(std::size_t i) {
@@ -97,8 +106,11 @@ void TileWorker::run_step(std::size_t i) {
                 store.view(static_cast<std::size_t>(step.plane), regions_[i], op.outputs[first].window))
             return outputs.push_back(*view);
     }
-    for (std::size_t o = 0; o < step.slots.size(); ++o)
-        outputs.push_back(buffer(step.slots[o], regions_[i], op.outputs[first + o].window));
+    for (std::size_t o = 0; o < step.slots.size(); ++o) {
+        const Rect& window = op.outputs[first + o].window;
+        outputs.push_back(step.slots[o] == Step::kUnwanted ? unwanted(o, regions_[i], window)
+                                                           : buffer(step.slots[o], regions_[i], window));
+    }
     switch (step.kind) {
         case Step::Kind::kLoad:
             data_->stores[static_cast<std::size_t>(step.store)]->load(static_cast<std::size_t>(step.plane),

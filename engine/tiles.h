@@ -38,9 +38,11 @@ private:
     struct Buffer {
         AlignedArray<float> memory;
         std::size_t size = 0;
+        float* with(std::size_t floats);  // room for so many; what was in it may be gone
     };
 
     MutView buffer(int slot, const Rect& rect, const Rect& window);
+    MutView unwanted(std::size_t output, const Rect& rect, const Rect& window);
     void run_step(std::size_t i);
     void run_compute(std::size_t i, const Op& op, Outputs outputs);
     void gather(const Operand& operand, const Link& link, ValueRef value, const Rect& rect);
@@ -60,7 +62,8 @@ private:
     std::vector<Rect> regions_;                  // by step
     std::vector<std::vector<MutView>> results_;  // by step and output
 
-    std::vector<Buffer> buffers_;  // by slot
+    std::vector<Buffer> buffers_;   // by slot
+    std::vector<Buffer> unwanted_;  // a row, by output of the step in work
     Scratch scratch_;
     std::vector<View> views_;
     std::vector<Inputs::Range> slots_;

@@ -57,9 +57,9 @@ HWY_INLINE Mask stands_out(const Memory& memory, const Rows3& magnitude, Floats 
     return hn::And(hn::Le(a, m), hn::Lt(b, m));
 }
 
-void suppress(const Rows3& magnitude, const float* dx_row, const float* dy_row, int n, Margin margin,
+void suppress(const Rows3& magnitude, const float* dx_row, const float* dy_row, int n,
               const GradientRow& out) {
-    for_each_vector(kFloat, n, 1, margin, [&](auto memory, int i) HWY_ATTR {
+    for_each_vector(kFloat, n, 1, {1, 1}, [&](auto memory, int i) HWY_ATTR {
         const auto store = [&](Floats value, float* row) HWY_ATTR {
             if (row != nullptr) memory.store(value, kFloat, row, i);
         };
@@ -87,12 +87,17 @@ HWY_EXPORT(suppress);
 
 void nms_row(const Rows3& magnitude, const float* dx, const float* dy, int n, Margin margin,
              const GradientRow& out) {
-    HWY_DYNAMIC_DISPATCH(suppress)(magnitude, dx, dy, n, margin, out);
+    const int begin = margin.before == 0 ? 1 : 0, end = margin.after == 0 ? n - 1 : n;
     for (float* row : {out.dx, out.dy, out.magnitude}) {
-        if (row == nullptr) continue;
-        if (n > 0 && margin.before == 0) row[0] = 0;
-        if (n > 0 && margin.after == 0) row[n - 1] = 0;
+        if (row == nullptr || n == 0) continue;
+        if (begin > 0) row[0] = 0;
+        if (end < n) row[n - 1] = 0;
     }
+    if (begin >= end) return;
+    const auto from = [begin](float* row) { return row == nullptr ? nullptr : row + begin; };
+    HWY_DYNAMIC_DISPATCH(suppress)
+    ({magnitude.above + begin, magnitude.at + begin, magnitude.below + begin}, dx + begin, dy + begin,
+     end - begin, {from(out.dx), from(out.dy), from(out.magnitude)});
 }
 
 }  // namespace keyline::simd

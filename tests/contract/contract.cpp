@@ -14,6 +14,7 @@ std::span<const Promise> promises() {
         {"Windows", check_windows, true},
         {"Identity", check_identity, true},
         {"Halo", check_halo, true},
+        {"Outputs", check_outputs, true},
     };
     return all;
 }

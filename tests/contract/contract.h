@@ -54,5 +54,7 @@ Complaints check_identity(const NodeType& type);
 // A region is computed from the pixels that the operation demands for it and from no others, nothing is
 // written beside it, and it is the same as that part of the whole.
 Complaints check_halo(const NodeType& type);
+// Each output of an operation is the same whether the others are read or not.
+Complaints check_outputs(const NodeType& type);
 
 }  // namespace keyline::testing

@@ -49,6 +49,7 @@ public:
     }
 
     Complaints compare_regions(Draw& draw) const {
+        if (op_.operation->reduction()) return compare_blocks();
         std::vector<Framed> whole = computed(window_, 0);
         for (int i = 0; i < 8; ++i) {
             const Rect region = some_region(draw);
@@ -63,6 +64,26 @@ public:
         return {};
     }
 
+    // Each output by itself, while the rows of the others lie on each other.
+    Complaints compare_outputs() const {
+        if (op_.operation->reduction()) return {};
+        const std::vector<Framed> all = computed(window_, 0);
+        for (std::size_t wanted = 0; all.size() > 1 && wanted < all.size(); ++wanted) {
+            std::vector<Framed> alone(all.size(), Framed(window_, window_, kUntouched));
+            compute(window_, 0, alone, [&](std::size_t o) { return o == wanted; });
+            if (!std::ranges::equal(all[wanted].memory, alone[wanted].memory, same_bits))
+                return {fmt::format("output {} is another where nobody reads the others", wanted)};
+        }
+        return {};
+    }
+
+private:
+    static constexpr float kUntouched = 12345;
+
+    static bool same_bits(float a, float b) {
+        return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b) || (std::isnan(a) && std::isnan(b));
+    }
+
     // Whole-frame: the frame in blocks of several sizes.
     Complaints compare_blocks() const {
         std::vector<Framed> whole = reduced(window_.width() + window_.height(), 0);
@@ -75,13 +96,6 @@ public:
                                             size, poison)};
             }
         return {};
-    }
-
-private:
-    static constexpr float kUntouched = 12345;
-
-    static bool same_bits(float a, float b) {
-        return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b) || (std::isnan(a) && std::isnan(b));
     }
 
     Rect some_region(Draw& draw) const {
@@ -117,13 +131,19 @@ private:
     }
 
     std::vector<Framed> computed(const Rect& region, float poison) const {
-        const Gathered g = gather([&](int slot) { return view_of_link(op_, slot, region); }, poison);
         std::vector<Framed> out(op_.outputs.size(), Framed(region, window_, kUntouched));
+        compute(region, poison, out, [](std::size_t) { return true; });
+        return out;
+    }
+    template <class Wanted>
+    void compute(const Rect& region, float poison, std::vector<Framed>& out, const Wanted& wanted) const {
+        const Gathered g = gather([&](int slot) { return view_of_link(op_, slot, region); }, poison);
         std::vector<MutView> views;
         for (Framed& f : out) views.push_back(f.view());
+        for (std::size_t o = 0; o < views.size(); ++o)
+            if (!wanted(o)) views[o].stride = 0;
         Scratch scratch;
         op_.operation->compute(g.inputs(), views, scratch);
-        return out;
     }
 
     std::vector<Framed> reduced(int size, float poison) const {
@@ -166,9 +186,9 @@ private:
     std::vector<Image> images_;  // by value of all links
 };
 
-}  // namespace
-
-Complaints check_halo(const NodeType& type) {
+// What check(bench, draw) says of the first operation that it complains of.
+template <class Check>
+Complaints check_operations(const NodeType& type, const Check& check) {
     Draw draw(kSeed);
     for (int i = 0; i < 8; ++i) {
         NodeCase c;
@@ -177,9 +197,7 @@ Complaints check_halo(const NodeType& type) {
             const ResolvedFrame frame = c.resolve(false);
             for (const Op& op : frame.ops) {
                 if (!op.operation || op.outputs.front().window.empty()) continue;
-                const Bench bench(op, draw);
-                Complaints found =
-                    op.operation->reduction() ? bench.compare_blocks() : bench.compare_regions(draw);
+                const Complaints found = check(Bench(op, draw), draw);
                 if (!found.empty()) return {found.front() + "\n" + c.text()};
             }
         } catch (const std::exception& e) {
@@ -187,6 +205,16 @@ Complaints check_halo(const NodeType& type) {
         }
     }
     return {};
+}
+
+}  // namespace
+
+Complaints check_halo(const NodeType& type) {
+    return check_operations(type, [](const Bench& bench, Draw& draw) { return bench.compare_regions(draw); });
+}
+
+Complaints check_outputs(const NodeType& type) {
+    return check_operations(type, [](const Bench& bench, Draw&) { return bench.compare_outputs(); });
 }
 
 }  // namespace keyline::testing

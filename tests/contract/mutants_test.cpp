@@ -252,6 +252,20 @@ struct BadDefault {
 
 // Takes what its declaration does not: the strictness of every node is the parser's, so the lie is told
 // there.
+struct ReadsBack : Honest {
+    static constexpr Info info{"reads_back", "Computes its second channel from what it wrote of the first."};
+    static constexpr std::array outputs{"one", "other"};
+    explicit ReadsBack(const Params& p) : Honest(p), in(p.in) {}
+    bool identity() const { return false; }
+    Halo halo() const { return {}; }
+    void compute(const Inputs& inputs, Outputs out, Scratch&) const {
+        const View& image = inputs[in].front();
+        fill(out[0], [&](int x, int y) { return *image.at(x, y); });
+        fill(out[1], [&](int x, int y) { return 2 * *out[0].at(x, y); });
+    }
+    const Input in;
+};
+
 std::unique_ptr<const Node> parse_anything(const Value& object, ParamReader& reader) {
     Value cleaned = object;
     std::erase_if(cleaned.members, [](const Member& m) { return m.key != "in"; });
@@ -311,6 +325,10 @@ TEST(Mutants, ASeamWithoutDiagonalsIsCaught) {
 TEST(Mutants, AMeanOfTilesIsCaught) {
     EXPECT_CAUGHT(check_schedules, MeanOfTiles, "differs at");
     EXPECT_CAUGHT(check_halo, MeanOfTiles, "in blocks of");
+}
+
+TEST(Mutants, AnOutputThatNeedsAnotherIsCaught) {
+    EXPECT_CAUGHT(check_outputs, ReadsBack, "output 1 is another");
 }
 
 TEST(Mutants, ANodeWithoutHelpIsCaught) { EXPECT_CAUGHT(check_declaration, Unexplained, "has no help"); }
