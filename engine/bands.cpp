@@ -3,6 +3,7 @@
 #include "engine/bands.h"
 
 #include "engine/simd/half.h"
+#include "engine/simd/stream.h"
 
 #include <algorithm>
 #include <cstring>
@@ -82,7 +83,15 @@ void Bands::load(std::size_t plane, const MutView& out) const {
     }
 }
 
+void Bands::store_resident(std::size_t plane, const View& in) {
+    const Plane& p = resident_[plane];
+    for (int y = in.rect.y0; y < in.rect.y1; ++y)
+        simd::stream_row(in.row(y), reinterpret_cast<float*>(p.at(in.rect.x0, y)), in.rect.width());
+    simd::finish_stream();
+}
+
 std::size_t Bands::store(std::size_t plane, const View& in) {
+    if (is_resident() && types_[plane] == SampleType::kFloat) return store_resident(plane, in), 0;
     const auto n = static_cast<std::size_t>(in.rect.width());
     std::size_t overflowed = 0;
     for (int y = in.rect.y0; y < in.rect.y1; ++y) {

@@ -52,6 +52,7 @@ public:
     void copy(std::size_t plane, const Bands& from, std::size_t from_plane, const Rect& region);
 
 private:
+    void store_resident(std::size_t plane, const View& in);
     void convert(std::size_t plane, const Bands& from, std::size_t from_plane, const Rect& region);
 
     using Memory = AlignedArray<std::byte>;
