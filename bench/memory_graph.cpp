@@ -16,8 +16,6 @@ namespace keyline::bench {
 
 namespace {
 
-constexpr int kChunkHeight = 16;  // as in a file with ZIP
-
 // What a graph's text can't hold: the pictures of graphs, by a number that it can.
 struct Shelf {
     std::vector<const Picture*> sources;
@@ -41,7 +39,7 @@ public:
     explicit MemorySource(const Picture& picture) : picture_(picture) {
         const Rect window{0, 0, picture.width, picture.height};
         header_.display_window = header_.data_window = window;
-        ChannelGroup group{{}, window, picture.width, kChunkHeight};
+        ChannelGroup group{{}, window, picture.width, picture.height};
         for (const std::string& name : picture.channels) group.channels.push_back({name, SampleType::kFloat});
         header_.groups.push_back(std::move(group));
     }
@@ -75,7 +73,7 @@ public:
     }
 
     Rect region() const override { return {0, 0, picture_.width, picture_.height}; }
-    int chunk_height() const override { return kChunkHeight; }
+    int chunk_height() const override { return picture_.height; }
     const std::vector<ChannelInfo>& channels() const override { return channels_; }
     std::size_t chunk_memory() const override { return 0; }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kFramesAtOnce = 2;  // one that is finishing, one that is being read
 
-// The frames at work: each job that ends hands out those that became ready, of the oldest frame first.
+// The frames at work: a worker that has done a job hands out those that became ready, and takes one itself.
 class Pool {
 public:
     Pool(FrameSupply& supply, std::vector<std::unique_ptr<TileWorker>>& workers, std::size_t memory,
@@ -34,63 +34,84 @@ public:
 private:
     using Frames = std::list<std::unique_ptr<FrameRun>>;
 
-    // Under the lock.
-    void dispatch() {
+    struct Task {
+        FrameRun* frame;  // null: begin the next frame
+        Job job;
+    };
+
+    // Under the lock: gives idle workers what there is to do.  The task of `self`, if there is one for it, is
+    // returned; the others are started.
+    std::optional<Task> dispatch(const TileWorker* self = nullptr) {
+        std::optional<Task> own;
         end_frames();
-        for (const auto& frame : frames_) {
-            if (cancel_) frame->cancel();
-            start_jobs(*frame);
+        while (!idle_.empty()) {
+            const std::optional<Task> task = next_task();
+            if (!task) break;
+            TileWorker* const worker = take_worker();
+            if (worker == self)
+                own = task;
+            else
+                group_.run([this, task = *task, worker] { work(task, worker); });
         }
-        if (wants_frame()) start_next_frame();
         end_frames();
+        return own;
     }
 
-    void start_jobs(FrameRun& frame) {
-        while (!idle_.empty()) {
-            const std::optional<Job> job = frame.next();
-            if (!job) return;
-            TileWorker* worker = take_worker();
-            group_.run([this, &frame, job = *job, worker] { work(frame, job, worker); });
+    // Of the oldest frame first.
+    std::optional<Task> next_task() {
+        for (const auto& frame : frames_) {
+            if (cancel_) frame->cancel();
+            if (const std::optional<Job> job = frame->next()) return Task{frame.get(), *job};
         }
+        if (!wants_frame()) return std::nullopt;
+        opening_ = true;
+        return Task{nullptr, {}};
     }
 
     bool wants_frame() const {
-        if (exhausted_ || opening_ || cancel_ || idle_.empty() || frames_.size() >= kFramesAtOnce)
-            return false;
+        if (exhausted_ || opening_ || cancel_ || frames_.size() >= kFramesAtOnce) return false;
         // The next frame will want about what this one does.
         return frames_.empty() || memory_ == 0 || 2 * frames_.back()->plan().memory_bytes <= memory_;
     }
 
-    void start_next_frame() {
-        opening_ = true;
-        TileWorker* worker = take_worker();
-        group_.run([this, worker] {
-            auto frame = supply_.next();
+    // One task after the other, as long as there is one for this worker.
+    void work(Task first, TileWorker* worker) {
+        for (std::optional<Task> task = first; task;) {
+            const bool is_job = task->frame != nullptr;
+            const std::exception_ptr error = is_job ? run_job(*task, *worker) : nullptr;
+            std::unique_ptr<FrameRun> begun = is_job ? nullptr : supply_.next();
             const std::lock_guard lock(mutex_);
-            opening_ = false;
-            if (frame)
-                frames_.push_back(std::move(frame));
+            if (is_job)
+                job_ended(*task, error);
             else
-                exhausted_ = true;
+                frame_begun(std::move(begun));
             idle_.push_back(worker);
-            dispatch();
-        });
+            task = dispatch(worker);
+        }
     }
 
-    void work(FrameRun& frame, const Job& job, TileWorker* worker) {
-        std::exception_ptr error;
+    static std::exception_ptr run_job(const Task& task, TileWorker& worker) {
         try {
-            frame.run(job, *worker);
+            task.frame->run(task.job, worker);
+            return nullptr;
         } catch (...) {
-            error = std::current_exception();
+            return std::current_exception();
         }
-        const std::lock_guard lock(mutex_);
+    }
+
+    static void job_ended(const Task& task, const std::exception_ptr& error) {
         if (error)
-            frame.failed(job, error);
+            task.frame->failed(task.job, error);
         else
-            frame.completed(job);
-        idle_.push_back(worker);
-        dispatch();
+            task.frame->completed(task.job);
+    }
+
+    void frame_begun(std::unique_ptr<FrameRun> frame) {
+        opening_ = false;
+        if (frame)
+            frames_.push_back(std::move(frame));
+        else
+            exhausted_ = true;
     }
 
     // The oldest first, and not while the supply is busy with the next frame: its calls come one at a time.

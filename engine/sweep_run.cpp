@@ -63,6 +63,7 @@ int SweepRun::due_row(int store, int band) const {
 
 void SweepRun::plan_reads() {
     for (const int s : sweep_.reads) {
+        if (data_.stores[index(s)]->is_resident()) continue;
         const Store& store = plan_.stores[index(s)];
         const ChannelGroup& group =
             plan_.frame.ops[index(store.source_op)].source->header().groups[store.group];
@@ -181,7 +182,6 @@ void SweepRun::run_decode(const Job& job, int worker) const {
     const Store& store = plan_.stores[index(job.which)];
     const Op& op = plan_.frame.ops[index(store.source_op)];
     const Bands& bands = *data_.stores[index(job.which)];
-    if (bands.is_resident()) return;
     Timed time(data_.recorder, Activity::kRead, op.title, plan_.frame.frame, index_, worker);
     const auto pixels = bands.rect(job.row).area() * static_cast<int64_t>(store.values.size());
     time.pixels(pixels, pixels);
