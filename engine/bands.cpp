@@ -10,10 +10,19 @@
 
 namespace keyline {
 
-Bands::Bands(const Rect& region, std::vector<SampleType> types, int origin, int height)
+namespace {
+
+constexpr std::size_t kSlab = 4 * kHugePage;  // and a bit, so that these are whole
+
+}  // namespace
+
+Bands::Bands(const Rect& region, std::vector<SampleType> types, int origin, int height, bool held_at_once)
     : region_(region), types_(std::move(types)), origin_(origin), height_(height) {
     first_ = region_.empty() ? 0 : band_of(region_.y0);
-    if (!region_.empty()) bands_.resize(static_cast<std::size_t>(band_of(region_.y1 - 1) + 1 - first_));
+    if (region_.empty()) return;
+    bands_.resize(static_cast<std::size_t>(band_of(region_.y1 - 1) + 1 - first_), false);
+    if (held_at_once) per_slab_ = std::min(bands_.size(), kSlab / band_bytes() + 1);
+    slabs_.resize((bands_.size() + per_slab_ - 1) / per_slab_);
 }
 
 Bands::Bands(const Rect& region, std::vector<Plane> resident, int origin, int height)
@@ -36,28 +45,38 @@ std::size_t Bands::plane_offset(std::size_t plane) const {
     return offset;
 }
 
+std::byte* Bands::memory(int band) const {
+    return slabs_[slot(band) / per_slab_].memory.get() + slot(band) % per_slab_ * band_bytes();
+}
+
 void Bands::allocate(int band, bool zero) {
     if (is_resident()) return;
-    Memory& memory = bands_[static_cast<std::size_t>(band - first_)];
-    if (spare_.empty()) {
-        memory = make_aligned<std::byte>(plane_offset(types_.size()));
-    } else {
-        memory = std::move(spare_.back());
+    Slab& slab = slabs_[slot(band) / per_slab_];
+    if (!slab.memory && !spare_.empty()) {
+        slab.memory = std::move(spare_.back());
         spare_.pop_back();
+    } else if (!slab.memory) {
+        slab.memory = make_aligned<std::byte>(per_slab_ * band_bytes());
     }
-    if (zero) std::memset(memory.get(), 0, plane_offset(types_.size()));
+    ++slab.in_use;
+    bands_[slot(band)] = true;
+    if (zero) std::memset(memory(band), 0, band_bytes());
 }
 
 void Bands::release(int band, bool reuse) {
-    Memory memory = std::move(bands_[static_cast<std::size_t>(band - first_)]);
-    if (memory && reuse) spare_.push_back(std::move(memory));
+    if (is_resident() || !bands_[slot(band)]) return;
+    bands_[slot(band)] = false;
+    Slab& slab = slabs_[slot(band) / per_slab_];
+    if (--slab.in_use > 0) return;
+    if (reuse) spare_.push_back(std::move(slab.memory));
+    slab.memory.reset();
 }
 
 Plane Bands::plane(int band, std::size_t plane) const {
     const Rect r = rect(band);
     if (is_resident()) return {resident_[plane].at(r.x0, r.y0), resident_[plane].stride, types_[plane], r};
     const auto stride = static_cast<std::ptrdiff_t>(sample_size(types_[plane])) * r.width();
-    return {slot(band).get() + plane_offset(plane), stride, types_[plane], r};
+    return {memory(band) + plane_offset(plane), stride, types_[plane], r};
 }
 
 std::optional<MutView> Bands::view(std::size_t plane, const Rect& region, const Rect& window) const {

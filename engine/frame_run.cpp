@@ -32,7 +32,8 @@ std::unique_ptr<Bands> store_bands(const Plan& plan, const Store& store) {
     for (const ValueRef v : store.values) planes.push_back(resident_plane(plan.frame, v));
     if (is_resident(planes))
         return std::make_unique<Bands>(store.region, std::move(planes), store.band_origin, store.band_height);
-    return std::make_unique<Bands>(store.region, store.types, store.band_origin, store.band_height);
+    return std::make_unique<Bands>(store.region, store.types, store.band_origin, store.band_height,
+                                   store.first_sweep < store.last_sweep);
 }
 
 }  // namespace
