@@ -8,15 +8,17 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
+#include <utility>
 
 namespace keyline {
 
 namespace {
 
 // The program, its libraries and their heaps before a frame is begun; measured with an empty graph.
-constexpr std::size_t kProcessBytes = std::size_t{14} << 20;
+constexpr std::size_t kProcessBytes = std::size_t{12} << 20;
 // A worker's stack as far as it is touched, and the allocator's arena.
-constexpr std::size_t kWorkerBytes = std::size_t{1} << 20;
+constexpr std::size_t kWorkerBytes = std::size_t{512} << 10;
 
 std::size_t process_bytes(const Plan& plan) {
     const bool has_module = module_is_loaded() || std::ranges::any_of(plan.frame.sinks, [](const Sink& sink) {
@@ -45,18 +47,39 @@ std::size_t scratch_bytes(const Plan& plan, const Sweep& sweep) {
     return sum;
 }
 
-std::size_t sink_bytes(const Plan& plan, const Sweep& sweep, const Sink& sink) {
+std::size_t row_bytes(const Sink& sink) {
     std::size_t row = 0;
     for (const ChannelInfo& c : sink.request.spec.channels)
         row += sample_size(c.type) * static_cast<std::size_t>(sink.request.stream.window.width());
-    const auto rows =
-        static_cast<std::size_t>(plan.rows_ahead) * static_cast<std::size_t>(sweep.tile_height) + 32;
-    return row * std::min(rows, static_cast<std::size_t>(sink.request.stream.window.height()));
+    return row;
 }
+
+// Rows waiting to be encoded, and a chunk that is.
+std::size_t sink_bytes(const Plan& plan, const Sweep& sweep, const Sink& sink) {
+    constexpr std::size_t kChunk = 16;  // of ZIP
+    const auto rows =
+        static_cast<std::size_t>(plan.rows_ahead) * static_cast<std::size_t>(sweep.tile_height) + kChunk;
+    return row_bytes(sink) * std::min(rows, static_cast<std::size_t>(sink.request.stream.window.height()));
+}
+
+// What a worker packs a chunk in: the samples in the file's order, parted and differenced, and compressed.
+std::size_t packing_bytes(const Sink& sink) { return 3 * 16 * row_bytes(sink); }
 
 bool is_resident(const Plan& plan, const Store& store) {
     return std::ranges::all_of(store.values,
                                [&](ValueRef v) { return resident_plane(plan.frame, v).data != nullptr; });
+}
+
+// What a worker decodes in up to a sweep: it stays with the source.
+std::size_t decoding_bytes(const Plan& plan, int sweep) {
+    std::set<std::pair<int, std::size_t>> groups;
+    for (const Store& store : plan.stores)
+        if (store.source_op >= 0 && store.first_sweep <= sweep && !is_resident(plan, store))
+            groups.emplace(store.source_op, store.group);
+    std::size_t sum = 0;
+    for (const auto& [op, group] : groups)
+        sum += plan.frame.ops[static_cast<std::size_t>(op)].source->chunk_memory(group);
+    return sum;
 }
 
 bool is_alive(const Store& store, int sweep) {
@@ -67,15 +90,20 @@ bool is_alive(const Store& store, int sweep) {
 
 int live_rows(const Plan& plan, const Sweep& sweep, const Store& store) {
     const auto index = static_cast<std::size_t>(&store - plan.stores.data());
+    // One thread computes what is ready before it decodes more.
+    const std::size_t in_work = plan.threads == 1 ? 1 : static_cast<std::size_t>(plan.rows_ahead);
     int most = 0;
     for (std::size_t row = 0; row < sweep.rows.size(); ++row) {
         Rect tiles;
-        for (std::size_t r = row;
-             r < std::min(sweep.rows.size(), row + static_cast<std::size_t>(plan.rows_ahead)); ++r)
+        for (std::size_t r = row; r < std::min(sweep.rows.size(), row + in_work); ++r)
             tiles = unite(tiles, sweep.row_rect(r));
-        most = std::max(most, store_regions(plan, sweep, tiles)[index].height());
+        const Rect needed = store_regions(plan, sweep, tiles)[index];
+        if (needed.empty()) continue;
+        const int first = floor_div(needed.y0 - store.band_origin, store.band_height),
+                  last = floor_div(needed.y1 - 1 - store.band_origin, store.band_height);
+        most = std::max(most, (last + 1 - first) * store.band_height);
     }
-    return std::min(store.region.height(), most + 2 * store.band_height);
+    return std::min(store.region.height(), most);
 }
 
 void estimate_memory(Plan& plan) {
@@ -91,13 +119,13 @@ void estimate_memory(Plan& plan) {
             const bool passing = store.first_sweep == store.last_sweep && store.source_op >= 0;
             frame += passing ? store.row_bytes() * static_cast<std::size_t>(live_rows(plan, sweep, store))
                              : store.bytes();
-            if (store.source_op >= 0 && store.first_sweep == index)
-                worker += plan.frame.ops[static_cast<std::size_t>(store.source_op)].source->chunk_memory(
-                    store.group);
         }
+        worker += decoding_bytes(plan, index);
         for (const Root& root : sweep.roots) {
-            if (root.kind == Root::Kind::kSink)
-                frame += sink_bytes(plan, sweep, plan.frame.sinks[static_cast<std::size_t>(root.sink)]);
+            if (root.kind != Root::Kind::kSink) continue;
+            const Sink& sink = plan.frame.sinks[static_cast<std::size_t>(root.sink)];
+            frame += sink_bytes(plan, sweep, sink);
+            worker += packing_bytes(sink);
         }
         for (const Op& op : plan.frame.ops)
             if (op.operation && op.operation->reduction() && !op.links.empty())
