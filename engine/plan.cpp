@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/plan.h"
 
+#include "engine/plan_cost.h"
 #include "engine/plan_memory.h"
 #include "engine/sweeps.h"
 
@@ -11,28 +12,6 @@
 namespace keyline {
 
 namespace {
-
-// Pixels computed over pixels wanted, weighted by what the operations cost: 1 without halos.
-double halo_overhead(const Plan& plan, const Sweep& sweep) {
-    if (sweep.area.empty()) return 1;
-    const Rect tile = intersect({0, 0, sweep.tile_width, sweep.tile_height},
-                                {0, 0, sweep.area.width(), sweep.area.height()});
-    const Rect middle = translate(tile, sweep.area.x0 + (sweep.area.width() - tile.width()) / 2,
-                                  sweep.area.y0 + (sweep.area.height() - tile.height()) / 2);
-    const std::vector<Rect> regions = step_regions(plan, sweep, middle);
-    double spent = 1, wanted = 1;
-    for (std::size_t i = 0; i < regions.size(); ++i) {
-        const Op& op = plan.frame.ops[static_cast<std::size_t>(sweep.steps[i].op)];
-        const double cost = op.operation ? op.operation->cost() : 1;
-        // A stencil may work on all that it reads: a blur in x and y blurs the rows above and below in x.
-        Rect worked = regions[i];
-        if (sweep.steps[i].kind == Step::Kind::kCompute)
-            worked = intersect(grow(worked, op.operation->halo()), op.outputs.front().window);
-        spent += cost * static_cast<double>(worked.area());
-        wanted += cost * static_cast<double>(std::min(worked.area(), middle.area()));
-    }
-    return spent / wanted;
-}
 
 constexpr double kTolerableOverhead = 1.5;
 
@@ -56,11 +35,15 @@ public:
             choices.tile_width = choices.tile_height = options_.tile;
         else
             grow_tiles(choices);
+        const std::vector<Choices> all = candidates(choices);
+        std::vector<Weighed> weighed = options_.weigh_all ? weigh(all) : std::vector<Weighed>{};
         std::size_t least = SIZE_MAX;
-        for (const Choices& c : candidates(choices)) {
+        for (const Choices& c : all) {
             build(c);
-            if (options_.memory == 0 || plan_.memory_bytes <= options_.memory) return std::move(plan_);
             least = std::min(least, plan_.memory_bytes);
+            if (options_.memory > 0 && plan_.memory_bytes > options_.memory) continue;
+            plan_.weighed = std::move(weighed);
+            return std::move(plan_);
         }
         fail(ErrorKind::kGraph,
              fmt::format("the memory limit is {}; frame {} needs at least {}", memory_text(options_.memory),
@@ -75,6 +58,19 @@ private:
         make_sweeps(plan_, c);
         plan_.rows_ahead = std::min(c.rows_ahead, rows_ahead_for(plan_, options_.threads));
         estimate_memory(plan_);
+        estimate_work(plan_);
+    }
+
+    // Without those that save no memory: one before is as good.
+    std::vector<Weighed> weigh(const std::vector<Choices>& all) {
+        std::vector<Weighed> out;
+        for (const Choices& c : all) {
+            build(c);
+            if (!out.empty() && plan_.memory_bytes >= out.back().memory_bytes) continue;
+            out.push_back({c.keep_sources, c.keep_computed, c.tile_width, c.tile_height, plan_.rows_ahead,
+                           plan_.work, plan_.memory_bytes});
+        }
+        return out;
     }
 
     // Large halos want large tiles, or most of the work is done again by the neighbours.

@@ -95,6 +95,14 @@ struct Sweep {
     }
 };
 
+// A way to compute the frame that the planner weighed.
+struct Weighed {
+    bool keep_sources, keep_computed;  // for a later sweep, or decode and compute again
+    int tile_width, tile_height, rows_ahead;
+    double work;  // as Plan's
+    std::size_t memory_bytes;
+};
+
 struct Plan {
     ResolvedFrame frame;
     Demand demand;
@@ -103,6 +111,8 @@ struct Plan {
     int threads = 1;
     int rows_ahead = 1;            // tile rows that may be in work at once
     std::size_t memory_bytes = 0;  // the most that the process will use, estimated
+    double work = 0;               // seconds of one thread, estimated: plan_cost.h
+    std::vector<Weighed> weighed;  // with PlanOptions::weigh_all; from the fastest to the smallest
 
     std::string text() const;  // for people: `keyline plan`
 };
@@ -111,6 +121,7 @@ struct PlanOptions {
     int threads = 1;
     int tile = 0;            // 0: the planner's choice
     std::size_t memory = 0;  // bytes for the whole process; 0: no limit
+    bool weigh_all = false;  // for people: what there was to choose from, too
 };
 
 // Throws Failure (kGraph) where the memory is less than the least that the frame can be computed in.

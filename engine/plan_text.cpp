@@ -29,6 +29,7 @@ public:
             if (op.source && plan_.demand.needs(index(op))) input(op);
         for (const Sink& sink : plan_.frame.sinks) output(sink);
         for (std::size_t i = 0; i < plan_.sweeps.size(); ++i) sweep(i);
+        if (!plan_.weighed.empty()) choices();
         return std::move(text_);
     }
 
@@ -146,6 +147,23 @@ private:
         std::string text = fmt::format("{}, {}", file_of(sink), counted(root.operands.size(), "channel"));
         if (untouched > 0) text += fmt::format(", {} as they are in the input", untouched);
         entry("write", text);
+    }
+
+    // Work is told against the fastest's: the model's seconds are those of another machine.
+    void choices() {
+        line(0, "\nchoices, from the fastest to the smallest; the first that fits is taken");
+        std::string before;
+        for (const Weighed& w : plan_.weighed) {
+            const bool is_it = w.memory_bytes == plan_.memory_bytes;
+            if (!is_it && memory_text(w.memory_bytes) == before) continue;
+            before = memory_text(w.memory_bytes);
+            line(0, fmt::format("{} {:>6} of memory, work {:4.2f}: {}, {}, tiles of {} × {}, {} at once",
+                                is_it ? '*' : ' ', memory_text(w.memory_bytes),
+                                w.work / plan_.weighed.front().work,
+                                w.keep_sources ? "decode once" : "decode again",
+                                w.keep_computed ? "compute once" : "compute again", w.tile_width,
+                                w.tile_height, counted(static_cast<std::size_t>(w.rows_ahead), "row")));
+        }
     }
 
     const Plan& plan_;

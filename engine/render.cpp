@@ -172,7 +172,7 @@ std::optional<Plan> plan_frame(const Graph& graph, int frame, const RenderOption
     auto resolved = resolve_checked(graph, frame, resolve_options(graph, options, false), diagnostics);
     if (!resolved) return std::nullopt;
     try {
-        return make_plan(std::move(*resolved), {options.threads, options.tile, options.memory});
+        return make_plan(std::move(*resolved), {options.threads, options.tile, options.memory, true});
     } catch (const Failure& f) {
         diagnostics.error(f.error());
         return std::nullopt;

@@ -141,6 +141,29 @@ TEST(Plan, ComputesAgainWhatItHasNoMemoryToKeep) {
     EXPECT_EQ(fewest, 0U);
 }
 
+TEST(Plan, WhatTakesLessMemoryTakesMoreWork) {
+    PlanOptions options;
+    options.weigh_all = true;
+    const Plan plan = planned(edges_over_blur(), "comp", options);
+    ASSERT_GT(plan.weighed.size(), 3U);
+    EXPECT_EQ(plan.memory_bytes, plan.weighed.front().memory_bytes) << "without a limit the fastest is taken";
+    for (std::size_t i = 1; i < plan.weighed.size(); ++i) {
+        EXPECT_LT(plan.weighed[i].memory_bytes, plan.weighed[i - 1].memory_bytes) << i;
+        EXPECT_GE(plan.weighed[i].work, plan.weighed[i - 1].work) << i;
+    }
+    EXPECT_GT(plan.weighed.back().work, 1.1 * plan.weighed.front().work);
+}
+
+TEST(Plan, TellsWhatItWeighedAndWhichItTook) {
+    PlanOptions options;
+    options.weigh_all = true;
+    const std::string text = planned(edges_over_blur(), "comp", options).text();
+    EXPECT_THAT(text, HasSubstr("\nchoices, from the fastest to the smallest"));
+    EXPECT_EQ(std::ranges::count(text, '*'), 1) << text;
+    EXPECT_THAT(text, HasSubstr("work 1.00: decode once, compute once, tiles of "));
+    EXPECT_EQ(planned(edges_over_blur(), "comp").text().find("choices"), std::string::npos);
+}
+
 // A tile pays for its halo in what the operations before it compute again.
 TEST(Plan, LargeHalosGetLargeTiles) {
     const Image large = noise({0, 0, 2000, 1000}, {"Y"}, 1);

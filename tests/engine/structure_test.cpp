@@ -135,7 +135,7 @@ const std::vector<Strings> kLayers = {
     {"graph", "graph_json", "graph_load", "variables", "frames"},
     {"resolve"},
     {"demand"},
-    {"plan", "plan_memory", "plan_text"},
+    {"plan", "plan_cost", "plan_memory", "plan_text"},
     {"tiles", "sweep_run", "frame_run", "execute"},
     {"render"},
 };
