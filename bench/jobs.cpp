@@ -32,6 +32,7 @@ struct Job {
     std::string name;
     double x;
     Command command;
+    Command beside = {};  // at the same time, where it is not empty
 };
 
 Plate open_plate(const fs::path& file) {
@@ -81,7 +82,8 @@ private:
         std::cerr << experiment << '\n';
         for (int round = -1; round < rounds; ++round)
             for (const Job& j : jobs) {
-                const Measured run = run_process(j.command);
+                const Measured run =
+                    j.beside.empty() ? run_process(j.command) : run_together({j.command, j.beside});
                 if (round >= 0) log_.add(experiment, j.name, j.x, round, run);
             }
     }
@@ -108,6 +110,8 @@ private:
             jobs.push_back({"Keyline", double(n), keyline_job(plate.file, out("lines"), n)});
             jobs.push_back({"OpenEXR read + write", double(n), openexr_copy(plate.file, out("copy"), n)});
         }
+        jobs.push_back({"Keyline, two at once", 1, keyline_job(plate.file, out("lines"), 1),
+                        keyline_job(plate.file, out("lines-beside"), 1)});
         in_turn("threads", jobs, rounds_);
     }
 

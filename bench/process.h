@@ -17,4 +17,7 @@ struct Measured {
 // fails.
 Measured run_process(const std::vector<std::string>& command);
 
+// Several at the same time: until the last has ended, and the most that one of them took.
+Measured run_together(const std::vector<std::vector<std::string>>& commands);
+
 }  // namespace keyline::bench

@@ -74,7 +74,7 @@ def threads_table(runs):
     return table(["threads, 4K", "Keyline", "peak memory", OPENEXR],
                  [[f"{x:g}", seconds(runs.seconds("threads", KEYLINE, x)),
                    f"{runs.mib('threads', KEYLINE, x):.0f} MiB", seconds(runs.seconds("threads", OPENEXR, x))]
-                  for x in sorted({x for _, _, x in runs.of("threads")})])
+                  for x in sorted({x for _, what, x in runs.of("threads") if what == OPENEXR})])
 
 
 def sigma_table(runs):

@@ -13,7 +13,7 @@ HD, UHD2 = 1920.0 * 1080, 7680.0 * 4320
 class Target:
     number: int
     what: str
-    limits: list  # the last is the goal, those before are on the way
+    limits: list  # the last is the goal, those before are on the way; none: to compare with
     values: list = field(default_factory=list)  # of each round; empty: not measured
     at_least: bool = False
     unit: str = ""
@@ -27,6 +27,8 @@ class Target:
     def verdict(self):
         if not self.values:
             return "not measured"
+        if not self.limits:
+            return ""
         if self._keeps(self.limits[-1]):
             return "met"
         return "first step met" if self._keeps(self.limits[0]) else "**missed**"
@@ -39,7 +41,8 @@ class Target:
             digits = 0 if self.unit else 2
             value = f"{self.value():.{digits}f}{self.unit}"
             span = f"{min(self.values):.{digits}f} – {max(self.values):.{digits}f}"
-        return [str(self.number), self.what, f"**{value}**", span, f"{sign} {limits}{self.unit}", self.verdict()]
+        target = f"{sign} {limits}{self.unit}" if self.limits else ""
+        return [str(self.number), self.what, f"**{value}**", span, target, self.verdict()]
 
 
 def _ratios(runs, a, b, scale=1.0):
@@ -86,6 +89,8 @@ def targets(runs):
         *_memory(runs),
         Target(4, "two threads against one, the job at 4K", [1.9],
                _ratios(runs, ("threads", KEYLINE, 1.0), ("threads", KEYLINE, 2.0)), at_least=True),
+        Target(4, "what the machine gives: two processes of one thread at once, against one after the other", [],
+               _ratios(runs, ("threads", KEYLINE, 1.0), ("threads", KEYLINE + ", two at once", 1.0), 2.0)),
         Target(5, "time per pixel at 8K against HD", [1.1],
                _ratios(runs, ("size", KEYLINE, UHD2), ("size", KEYLINE, HD), HD / UHD2)),
         *_sequences(runs),
