@@ -9,11 +9,11 @@ namespace keyline {
 namespace {
 
 // Nanoseconds of one thread, measured on an EPYC 9005 with --profile and with and without --memory 64M:
-// bench/lines.json at 4K, a plate of 26 channels, ZIP in and out.
+// bench/lines.json at 4K, a plate of 33 channels, ZIP in and out.
 constexpr double kOfCost = 0.05;  // a unit of Operation::cost(), a pixel
 constexpr double kLoad = 0.45;    // a sample from a store to floats
 constexpr double kKeep = 3;       // a sample held until a later sweep
-constexpr double kDecode = 1.2;   // a byte unpacked, wanted or not
+constexpr double kDecode = 0.8;   // a byte unpacked, wanted or not
 constexpr double kEncode = 6.6;   // a byte packed
 
 // What a tile in the middle of a sweep costs in computing, and what it would without halos.
