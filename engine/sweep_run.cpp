@@ -144,12 +144,16 @@ void SweepRun::start_rows() {
 }
 
 std::optional<Job> SweepRun::next() {
-    start_rows();
     if (!encodes_.empty()) {
         const Job job = encodes_.front();
         encodes_.pop_front();
+        // Rows that no tile lies in are all zeros.
+        Bands& bands = *data_.sinks[index(outputs_[index(job.which)].sink)];
+        const int band = bands.first_band() + job.row;
+        if (!bands.allocated(band)) bands.allocate(band, true);
         return job;
     }
+    start_rows();  // now that the memory of rows done is on its way back
     if (auto job = next_tile()) return job;
     if (next_decode_ == decodes_.size()) return std::nullopt;
     const auto& [due, job] = decodes_[next_decode_];
@@ -214,7 +218,7 @@ void SweepRun::fold(Fold& f, int tile, std::unique_ptr<Memory> partial) {
 
 void SweepRun::run_encode(const Job& job, int worker) {
     Output& out = outputs_[index(job.which)];
-    Bands& bands = *data_.sinks[index(out.sink)];
+    const Bands& bands = *data_.sinks[index(out.sink)];
     const int band = bands.first_band() + job.row;
     Timed time(data_.recorder, Activity::kEncode, plan_.frame.sinks[index(out.sink)].title, plan_.frame.frame,
                index_, worker);
@@ -225,7 +229,6 @@ void SweepRun::run_encode(const Job& job, int worker) {
         sample_bytes += bands.rect(band).area() * static_cast<int64_t>(sample_size(type));
     time.bytes(sample_bytes);
     std::vector<Plane> planes;
-    if (!bands.allocated(band)) bands.allocate(band, true);
     for (std::size_t i = 0; i < bands.types().size(); ++i) planes.push_back(bands.plane(band, i));
     naming(plan_.frame.sinks[index(out.sink)].title, plan_.frame.frame, [&] {
         EncodedChunk chunk = sinks_[index(out.sink)]->encode(job.row, planes);

@@ -28,14 +28,6 @@ struct Job {
     friend auto operator<=>(const Job&, const Job&) = default;
 };
 
-// The bookkeeping of one sweep: which bands of which stores a row of tiles waits for, which rows an output's
-// chunk waits for, and who is the last to need a band.
-//
-//     chunks decoded → band complete → rows of tiles ready → tiles → chunk of rows complete → encoded,
-//     committed
-//
-// Rows are worked on in order and only a few at once, so that what is held stays small when nothing has to
-// outlive the sweep.  Locking is as in FrameRun.
 // Calls f; a Failure that names no node is thrown on with this one.
 template <class F>
 auto naming(const std::string& title, int frame, const F& f) {
@@ -48,6 +40,14 @@ auto naming(const std::string& title, int frame, const F& f) {
     }
 }
 
+// The bookkeeping of one sweep: which bands of which stores a row of tiles waits for, which rows an output's
+// chunk waits for, and who is the last to need a band.
+//
+//     chunks decoded → band complete → rows of tiles ready → tiles → chunk of rows complete → encoded,
+//     committed
+//
+// Rows are worked on in order and only a few at once, so that what is held stays small when nothing has to
+// outlive the sweep.  Locking is as in FrameRun.
 class SweepRun {
 public:
     SweepRun(const Plan& plan, int sweep, FrameData& data, std::vector<std::unique_ptr<ImageSink>>& sinks);

@@ -4,6 +4,7 @@
 #include "tests/support/render_files.h"
 
 #include <cmath>
+#include <fstream>
 #include <gmock/gmock.h>
 
 namespace keyline::testing {
@@ -169,6 +170,26 @@ TEST_F(Write, ToAFormatOfOtherTypesSamplesAreConverted) {
 }
 
 // Computed samples become half, but half would round the bits that ids are.
+// They have no tile that would bring them on their way.
+TEST_F(Write, RowsOutsideTheDataWindowAreTheSameWhoeverEncodesThem) {
+    Image image = noise({0, 1500, 40, 1650}, {"B", "G", "R"}, 1, 0, 1);
+    image.display = {0, 0, 40, 4000};
+    write_exr(file("in.exr"), image);
+    const auto written = [&](int threads) {
+        RenderOptions options;
+        options.frames = {1};
+        options.threads = threads;
+        const Json nodes{{"in", {{"type", "read"}, {"file", file("in.exr")}}},
+                         {"out", {{"type", "write"}, {"in", "in"}, {"file", file("out.tif")}}}};
+        EXPECT_THAT(render_files(nodes, options).errors, IsEmpty());
+        std::ifstream in(file("out.tif"), std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    const std::string one = written(1);
+    ASSERT_GT(one.size(), 10'000U);
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(written(4) == one) << "with four threads it is another file";
+}
+
 TEST_F(Write, IdsOfACryptomatteStayWhole) {
     const Json nodes{{"in", {{"type", "read"}, {"file", KEYLINE_PASSES}}},
                      {"lines", {{"type", "idedge"}, {"in", "in"}, {"layer", "CryptoObject"}}},
