@@ -32,6 +32,14 @@ void* Scratch::allocate(std::size_t bytes) {
     return p;
 }
 
+void Scratch::reset() {
+    used_ = 0, block_ = 0;
+    if (blocks_.size() < 2) return;
+    const std::size_t size = bytes();
+    blocks_.clear();  // first, so that old and new never stand beside each other
+    blocks_.push_back({make_aligned<std::byte>(size), size});
+}
+
 std::size_t Scratch::bytes() const {
     std::size_t sum = 0;
     for (const Block& b : blocks_) sum += b.size;

@@ -47,8 +47,10 @@ public:
     }
     std::span<float> floats(std::size_t n) { return take<float>(n); }
 
-    void reset() { used_ = 0, block_ = 0; }
-    std::size_t bytes() const;  // all that was ever needed at once, and is kept
+    // Gives all back.  What had to be taken piecemeal is one piece from then on, so that needs that grow
+    // little by little leave nothing behind.
+    void reset();
+    std::size_t bytes() const;  // that are kept
 
 private:
     struct Block {
