@@ -74,10 +74,12 @@ void FrameRun::start_sweep() {
 // Ends a round of each whole-frame node mapped, and drops what no later sweep uses.
 void FrameRun::end_sweep() {
     const Sweep& sweep = plan_.sweeps[sweep_index_];
-    for (const Root& root : sweep.roots)
+    for (const Root& root : sweep.roots) {
+        if (root.kind == Root::Kind::kSink) data_.sinks[static_cast<std::size_t>(root.sink)].reset();
         if (root.kind == Root::Kind::kMap)
             plan_.frame.ops[static_cast<std::size_t>(root.op)].operation->reduction()->finish(
                 *data_.reductions[static_cast<std::size_t>(root.op)]);
+    }
     for (std::size_t i = 0; i < plan_.stores.size(); ++i)
         if (plan_.stores[i].last_sweep == static_cast<int>(sweep_index_)) data_.stores[i].reset();
     for (std::size_t i = 0; i < overflowed_.size(); ++i) overflowed_[i] += sweep_->overflowed()[i];

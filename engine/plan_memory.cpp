@@ -47,23 +47,32 @@ std::size_t scratch_bytes(const Plan& plan, const Sweep& sweep) {
     return sum;
 }
 
-std::size_t row_bytes(const Sink& sink) {
-    std::size_t row = 0;
-    for (const ChannelInfo& c : sink.request.spec.channels)
-        row += sample_size(c.type) * static_cast<std::size_t>(sink.request.stream.window.width());
-    return row;
-}
+SinkShape shape(const Sink& sink) { return sink_shape(sink.request.file, sink.request.spec); }
 
-// Rows waiting to be encoded, and a chunk that is.
+// Rows waiting to be encoded, and the chunks that are: one a worker.
 std::size_t sink_bytes(const Plan& plan, const Sweep& sweep, const Sink& sink) {
-    constexpr std::size_t kChunk = 16;  // of ZIP
-    const auto rows =
-        static_cast<std::size_t>(plan.rows_ahead) * static_cast<std::size_t>(sweep.tile_height) + kChunk;
-    return row_bytes(sink) * std::min(rows, static_cast<std::size_t>(sink.request.stream.window.height()));
+    const SinkShape s = shape(sink);
+    const int rows = plan.rows_ahead * sweep.tile_height + plan.threads * s.chunk_rows;
+    const SinkSpec& spec = sink.request.spec;
+    const int most = std::max(spec.display_window.height(), spec.data_window.height());
+    return s.row_bytes * static_cast<std::size_t>(std::min(rows, most));
 }
 
 // What a worker packs a chunk in: the samples in the file's order, parted and differenced, and compressed.
-std::size_t packing_bytes(const Sink& sink) { return 3 * 16 * row_bytes(sink); }
+std::size_t packing_bytes(const Sink& sink) {
+    const SinkShape s = shape(sink);
+    return 3 * static_cast<std::size_t>(s.chunk_rows) * s.row_bytes;
+}
+
+// What a worker has packed in up to a sweep: it stays with the sink.
+std::size_t packing_bytes(const Plan& plan, std::size_t sweep) {
+    std::size_t sum = 0;
+    for (std::size_t s = 0; s <= sweep; ++s)
+        for (const Root& root : plan.sweeps[s].roots)
+            if (root.kind == Root::Kind::kSink)
+                sum += packing_bytes(plan.frame.sinks[static_cast<std::size_t>(root.sink)]);
+    return sum;
+}
 
 bool is_resident(const Plan& plan, const Store& store) {
     return std::ranges::all_of(store.values,
@@ -125,8 +134,8 @@ void estimate_memory(Plan& plan) {
             if (root.kind != Root::Kind::kSink) continue;
             const Sink& sink = plan.frame.sinks[static_cast<std::size_t>(root.sink)];
             frame += sink_bytes(plan, sweep, sink);
-            worker += packing_bytes(sink);
         }
+        worker += packing_bytes(plan, s);
         for (const Op& op : plan.frame.ops)
             if (op.operation && op.operation->reduction() && !op.links.empty())
                 frame += op.operation->reduction()->state_bytes(op.links.front().window);

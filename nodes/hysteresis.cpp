@@ -82,7 +82,7 @@ struct Hysteresis {
     }
 
     std::size_t state_bytes(const Rect& window) const {
-        return static_cast<std::size_t>(window.area() / 4) +
+        return static_cast<std::size_t>(window.area() / 16 * 3) +
                (units == Units::kPercentile ? RankSearch::bytes() : 0);
     }
 

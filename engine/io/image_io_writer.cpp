@@ -21,8 +21,6 @@ namespace {
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-constexpr int kChunkHeight = 64;  // the tile of the one format that must have tiles
-
 TypeDesc type_of(Depth depth) {
     return depth == Depth::kUint8    ? TypeDesc::UINT8
            : depth == Depth::kUint16 ? TypeDesc::UINT16
@@ -52,7 +50,7 @@ ImageSpec spec_of(const PictureLayout& layout, const SinkSpec& wanted) {
         spec.channelnames[i] = order.channels.size() == 1 ? "Y" : wanted.channels[order.channels[i]].name;
     spec.alpha_channel = order.alpha ? static_cast<int>(*order.alpha) : -1;
     spec.z_channel = -1;
-    if (format.tiled) spec.tile_width = spec.tile_height = kChunkHeight;
+    if (format.tiled) spec.tile_width = spec.tile_height = kPictureChunkRows;
     // What encode() has divided must not be divided again, in integers.
     if (format.straight_alpha) spec.attribute("oiio:UnassociatedAlpha", 1);
     if (!layout.compression.empty()) spec.attribute("compression", layout.compression);
@@ -102,12 +100,13 @@ public:
     }
 
     Rect region() const override { return region_; }
-    int chunk_height() const override { return kChunkHeight; }
+    int chunk_height() const override { return kPictureChunkRows; }
     const std::vector<ChannelInfo>& channels() const override { return channels_; }
-    std::size_t chunk_memory() const override { return row_bytes_ * kChunkHeight; }
+    std::size_t chunk_memory() const override { return row_bytes_ * kPictureChunkRows; }
 
     EncodedChunk encode(int index, std::span<const Plane> planes) const override {
-        const int begin = region_.y0 + index * kChunkHeight, end = std::min(begin + kChunkHeight, region_.y1);
+        const int begin = region_.y0 + index * kPictureChunkRows,
+                  end = std::min(begin + kPictureChunkRows, region_.y1);
         EncodedChunk chunk{index, std::vector<std::byte>(row_bytes_ * static_cast<std::size_t>(end - begin))};
         std::vector<const float*> rows(layout_.order.channels.size());
         std::byte* to = chunk.bytes.data();
@@ -120,7 +119,8 @@ public:
     }
 
     void commit(EncodedChunk chunk) override {
-        const int begin = chunk.index * kChunkHeight, end = std::min(begin + kChunkHeight, region_.height());
+        const int begin = chunk.index * kPictureChunkRows,
+                  end = std::min(begin + kPictureChunkRows, region_.height());
         if (chunk.index != committed_ || begin >= end)
             fail(ErrorKind::kInternal,
                  fmt::format("{}: chunk {} committed after {}", name_, chunk.index, committed_));
@@ -129,7 +129,7 @@ public:
     }
 
     void finish() override {
-        const int chunks = (region_.height() + kChunkHeight - 1) / kChunkHeight;
+        const int chunks = (region_.height() + kPictureChunkRows - 1) / kPictureChunkRows;
         if (committed_ != chunks)
             fail(ErrorKind::kInternal,
                  fmt::format("{}: {} of {} chunks committed", name_, committed_, chunks));

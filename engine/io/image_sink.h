@@ -65,6 +65,13 @@ public:
     virtual std::size_t chunk_memory() const = 0;
 };
 
+// What of an output is held until it is encoded, known before it is made: whole chunks of so many rows.
+struct SinkShape {
+    int chunk_rows = 0;
+    std::size_t row_bytes = 0;
+};
+SinkShape sink_shape(const std::filesystem::path& file, const SinkSpec& spec);
+
 // Starts an output; the format follows the extension.  Missing folders are made.
 // Throws Failure: kOutput where the file can't be made, kGraph where the format can't hold what is asked
 // (depth, channels, compression), naming what it can.

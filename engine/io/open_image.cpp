@@ -69,6 +69,16 @@ void check_image(const std::filesystem::path& file, const SinkSpec& spec) {
         picture_layout(file, spec);
 }
 
+SinkShape sink_shape(const std::filesystem::path& file, const SinkSpec& spec) {
+    if (needs_module(file))
+        return {kPictureChunkRows,
+                spec.channels.size() * sizeof(float) * static_cast<std::size_t>(spec.display_window.width())};
+    const exr::Layout layout = exr::layout_of(spec);
+    std::size_t pixel = 0;
+    for (const exr::StoredChannel& c : layout.channels) pixel += sample_size(c.type);
+    return {layout.rows_per_chunk(), pixel * static_cast<std::size_t>(layout.data_window.width())};
+}
+
 bool is_finished(const std::filesystem::path& file, const SinkSpec& spec) {
     try {
         const std::unique_ptr<ImageSource> image = open_image(file);

@@ -16,6 +16,9 @@
 
 namespace keyline {
 
+// Rows that are encoded at once: the tile of the one format that must have tiles.
+inline constexpr int kPictureChunkRows = 64;
+
 // What an output format holds.
 struct OutputFormat {
     std::string_view name = {};  // OpenImageIO's
