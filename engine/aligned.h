@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -26,11 +27,13 @@ using AlignedArray = std::unique_ptr<T[], FreeMemory>;
 template <class T>
 AlignedArray<T> make_aligned(std::size_t n) {
     static_assert(std::is_trivially_copyable_v<T>);
-    const std::size_t bytes = (n * sizeof(T) + kCacheLine - 1) / kCacheLine * kCacheLine;
-    const bool huge = bytes >= kHugePage;
-    void* p = std::aligned_alloc(huge ? kHugePage : kCacheLine, bytes == 0 ? kCacheLine : bytes);
+    const std::size_t bytes = n * sizeof(T);
+    const std::size_t alignment = bytes >= kHugePage ? kHugePage : kCacheLine;
+    void* p = std::aligned_alloc(alignment,
+                                 std::max<std::size_t>(1, (bytes + alignment - 1) / alignment) * alignment);
     if (!p) throw std::bad_alloc();
-    if (huge) madvise(p, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);  // a hint: it may fail
+    // A hint, which may fail.  The end lies on small pages, as many as are touched.
+    if (bytes >= kHugePage) madvise(p, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
     return AlignedArray<T>(static_cast<T*>(p));
 }
 

@@ -12,7 +12,7 @@ namespace keyline {
 
 namespace {
 
-constexpr std::size_t kSlab = 4 * kHugePage;  // and a bit, so that these are whole
+constexpr std::size_t kSlab = 4 * kHugePage;  // at least: a band more than fits, and so these pages are full
 
 }  // namespace
 
@@ -110,7 +110,10 @@ void Bands::store_resident(std::size_t plane, const View& in) {
 }
 
 std::size_t Bands::store(std::size_t plane, const View& in) {
-    if (is_resident() && types_[plane] == SampleType::kFloat) return store_resident(plane, in), 0;
+    if (is_resident() && types_[plane] == SampleType::kFloat) {
+        store_resident(plane, in);
+        return 0;
+    }
     const auto n = static_cast<std::size_t>(in.rect.width());
     std::size_t overflowed = 0;
     for (int y = in.rect.y0; y < in.rect.y1; ++y) {

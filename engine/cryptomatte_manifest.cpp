@@ -32,7 +32,7 @@ uint32_t id_of(const Value& v) {
     uint32_t id = 0;
     const char* end = v.text.data() + v.text.size();
     const auto [rest, error] = std::from_chars(v.text.data(), end, id, 16);
-    if (!v.is(Value::Kind::kString) || error != std::errc{} || rest != end)
+    if (!v.is(Value::Kind::kString) || v.text.size() > 8 || error != std::errc{} || rest != end)
         fault(v.place, v.shown() + " is no id of up to 8 hexadecimal digits, in quotes");
     return id;
 }

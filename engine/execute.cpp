@@ -81,12 +81,17 @@ private:
             const std::exception_ptr error = is_job ? run_job(*task, *worker) : nullptr;
             std::unique_ptr<FrameRun> begun = is_job ? nullptr : supply_.next();
             const std::lock_guard lock(mutex_);
-            if (is_job)
-                job_ended(*task, error);
-            else
-                frame_begun(std::move(begun));
-            idle_.push_back(worker);
-            task = dispatch(worker);
+            try {
+                if (is_job)
+                    job_ended(*task, error);
+                else
+                    frame_begun(std::move(begun));
+                idle_.push_back(worker);
+                task = dispatch(worker);
+            } catch (...) {  // no memory for the books: nobody goes on
+                give_up();
+                throw;
+            }
         }
     }
 

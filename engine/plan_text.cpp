@@ -152,14 +152,14 @@ private:
     // Work is told against the fastest's: the model's seconds are those of another machine.
     void choices() {
         line(0, "\nchoices, from the fastest to the smallest; the first that fits is taken");
+        const double fastest = std::max(plan_.weighed.front().work, 1e-9);  // of nothing at all: 0
         std::string before;
         for (const Weighed& w : plan_.weighed) {
             const bool is_it = w.memory_bytes == plan_.memory_bytes;
             if (!is_it && memory_text(w.memory_bytes) == before) continue;
             before = memory_text(w.memory_bytes);
             line(0, fmt::format("{} {:>6} of memory, work {:4.2f}: {}, {}, tiles of {} × {}, {} at once",
-                                is_it ? '*' : ' ', memory_text(w.memory_bytes),
-                                w.work / plan_.weighed.front().work,
+                                is_it ? '*' : ' ', memory_text(w.memory_bytes), w.work / fastest,
                                 w.keep_sources ? "decode once" : "decode again",
                                 w.keep_computed ? "compute once" : "compute again", w.tile_width,
                                 w.tile_height, counted(static_cast<std::size_t>(w.rows_ahead), "row")));

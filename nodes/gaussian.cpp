@@ -32,7 +32,8 @@ public:
           ring_(scratch.take<float*>(2 * count())),
           edge_(scratch.take<const float*>(count())),
           next_(in.rect.y0) {
-        const std::size_t stride = (static_cast<std::size_t>(out.width()) + 15) / 16 * 16;
+        const std::size_t stride = (static_cast<std::size_t>(out.width()) + simd::kMostLanes - 1) /
+                                   simd::kMostLanes * simd::kMostLanes;
         float* const rows = scratch.floats(stride * count()).data();
         for (std::size_t i = 0; i < ring_.size(); ++i) ring_[i] = rows + i % count() * stride;
     }

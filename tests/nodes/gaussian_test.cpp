@@ -39,6 +39,13 @@ TEST(Gaussian, TakesASigmaForEachAxis) {
     EXPECT_IMAGE_NEAR(run("gaussian", {{"sigma", {0, 1.2}}}, in), blurred(in, 0, 1.2), 1e-5);
 }
 
+TEST(Gaussian, AWideOneIsTheSameWhateverTheTile) {
+    const Image in = noise({-9, 4, 120, 90}, {"Y"}, 5);
+    const Image whole = run("gaussian", {{"sigma", 10}}, in, {.tile = 400});
+    for (const int tile : {7, 32, 64})
+        EXPECT_IMAGE(run("gaussian", {{"sigma", 10}}, in, {.tile = tile}), whole);
+}
+
 TEST(Gaussian, ZeroPassesThrough) {
     const Image in = noise({0, 0, 9, 9}, {"Y"}, 3);
     EXPECT_IMAGE(run("gaussian", {{"sigma", 0}}, in), in);
