@@ -21,7 +21,8 @@ namespace keyline {
 class Bands {
 public:
     // Band i holds the rows [origin + i·height, origin + (i+1)·height) of `region`.
-    Bands(const Rect& region, std::vector<SampleType> types, int origin, int height, bool held_at_once = false);
+    Bands(const Rect& region, std::vector<SampleType> types, int origin, int height,
+          bool held_at_once = false);
 
     // The same over memory that someone else holds, whole: a plane a channel.  Nothing is ever allocated.
     Bands(const Rect& region, std::vector<Plane> resident, int origin, int height);
