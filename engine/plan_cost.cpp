@@ -30,11 +30,11 @@ Rect middle_tile(const Sweep& sweep) {
 
 // How many of these there are; those at the edges are parts.
 double tiles(const Sweep& sweep) {
-    double pixels = 0;
-    for (std::size_t row = 0; row < sweep.rows.size(); ++row)
-        for (std::size_t column = 0; column < sweep.columns.size(); ++column)
-            pixels += static_cast<double>(sweep.tile(column, row).area());
-    return pixels / static_cast<double>(middle_tile(sweep).area());
+    double width = 0, height = 0;
+    for (std::size_t column = 0; column < sweep.columns.size(); ++column)
+        width += sweep.tile(column, 0).width();
+    for (std::size_t row = 0; row < sweep.rows.size(); ++row) height += sweep.row_rect(row).height();
+    return width * height / static_cast<double>(middle_tile(sweep).area());
 }
 
 TileCost tile_cost(const Plan& plan, const Sweep& sweep) {

@@ -75,7 +75,7 @@ public:
     }
 
     Rect region() const override { return layout_.data_window; }
-    int chunk_height() const override { return std::max(layout_.rows_per_chunk(), kRowsOfSmallChunks); }
+    int chunk_height() const override { return rows_at_once(layout_); }
     const std::vector<ChannelInfo>& channels() const override { return channels_; }
 
     EncodedChunk encode(int index, std::span<const Plane> planes) const override {
@@ -143,6 +143,8 @@ private:
 };
 
 }  // namespace
+
+int rows_at_once(const Layout& layout) { return std::max(layout.rows_per_chunk(), kRowsOfSmallChunks); }
 
 Layout layout_of(const SinkSpec& spec) {
     Layout layout;

@@ -15,6 +15,9 @@ namespace keyline::exr {
 // hold, naming what it can.
 Layout layout_of(const SinkSpec& spec);
 
+// Rows that are encoded at once: one of the file's chunks, or several small ones.
+int rows_at_once(const Layout& layout);
+
 // Starts an OpenEXR file of one scanline part, increasing in y.  An empty data window is written as a zero
 // pixel, whatever encode() is given.  Throws Failure: kGraph as above, kOutput where the file can't be made.
 std::unique_ptr<ImageSink> create_exr(const std::filesystem::path& file, const SinkSpec& spec);

@@ -70,13 +70,16 @@ void check_image(const std::filesystem::path& file, const SinkSpec& spec) {
 }
 
 SinkShape sink_shape(const std::filesystem::path& file, const SinkSpec& spec) {
-    if (needs_module(file))
-        return {kPictureChunkRows,
-                spec.channels.size() * sizeof(float) * static_cast<std::size_t>(spec.display_window.width())};
+    if (needs_module(file)) {
+        const Rect& rows = spec.display_window;
+        return {std::min(kPictureChunkRows, rows.height()),
+                spec.channels.size() * sizeof(float) * static_cast<std::size_t>(rows.width())};
+    }
     const exr::Layout layout = exr::layout_of(spec);
     std::size_t pixel = 0;
     for (const exr::StoredChannel& c : layout.channels) pixel += sample_size(c.type);
-    return {layout.rows_per_chunk(), pixel * static_cast<std::size_t>(layout.data_window.width())};
+    return {std::min(exr::rows_at_once(layout), layout.data_window.height()),
+            pixel * static_cast<std::size_t>(layout.data_window.width())};
 }
 
 bool is_finished(const std::filesystem::path& file, const SinkSpec& spec) {
