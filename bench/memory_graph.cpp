@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/memory_graph.h"
 
-#include "engine/graph.h"
-#include "engine/node_adaptor.h"
-#include "engine/plan.h"
-#include "engine/registry.h"
+#include "engine/graph/graph.h"
+#include "engine/node/node_adaptor.h"
+#include "engine/node/registry.h"
+#include "engine/plan/planner.h"
 
 #include <fmt/format.h>
 #include <map>
@@ -75,7 +75,6 @@ public:
     Rect region() const override { return {0, 0, picture_.width, picture_.height}; }
     int chunk_height() const override { return picture_.height; }
     const std::vector<ChannelInfo>& channels() const override { return channels_; }
-    std::size_t chunk_memory() const override { return 0; }
 
     Plane resident(std::size_t channel) const override { return plane_of(picture_, channel); }
     EncodedChunk encode(int index, std::span<const Plane>) const override { return {index, {}}; }

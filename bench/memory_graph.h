@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/execute.h"
-#include "engine/resolve.h"
+#include "engine/plan/resolve.h"
+#include "engine/run/execute.h"
 
 #include <cstddef>
 #include <memory>

@@ -45,7 +45,8 @@ void TiledNode::compute(const Rect& tile) {
     const View in{all.at(seen.x0, seen.y0), all.stride, seen, window_};
     const MutView out{tile_.data(), tile.width() + kPadding, tile, window_};
     constexpr Inputs::Range kOne{0, 1};
-    op_->operation->compute(Inputs({&in, 1}, {&kOne, 1}), {&out, 1}, scratch_);
+    constexpr const Datum* kNoDatum = nullptr;
+    op_->operation->compute(Inputs({&in, 1}, {&kOne, 1}, {&kNoDatum, 1}), {&out, 1}, scratch_);
     scratch_.reset();
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bench/memory_graph.h"
-#include "engine/plan.h"
+#include "engine/plan/plan.h"
 
 namespace keyline::bench {
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 #include "cli/report.h"
-#include "engine/channels.h"
-#include "engine/describe.h"
+#include "cli/window_json.h"
+#include "engine/base/channels.h"
+#include "engine/base/print.h"
+#include "engine/base/text.h"
+#include "engine/io/describe.h"
 #include "engine/io/describe_image.h"
-#include "engine/json_writer.h"
+#include "engine/json/json_writer.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -73,28 +76,22 @@ std::string storage_of(const ImagePart& part) {
 }
 
 std::string text_of(const std::string& file, const ImageDescription& image) {
-    std::string out = fmt::format("{}: {}, {} part{}\n", file, image.format, image.parts.size(),
+    std::string out = fmt::format("{}: {}, {} part{}\n", escaped(file), image.format, image.parts.size(),
                                   image.parts.size() == 1 ? "" : "s");
     for (std::size_t i = 0; i < image.parts.size(); ++i) {
         const ImagePart& part = image.parts[i];
         if (image.parts.size() > 1 || !part.name.empty())
             append_line(out, "part", fmt::format("{} {}", i, in_quotes(part.name)));
-        if (!part.view.empty()) append_line(out, "view", part.view);
-        append_line(out, "display", describe(part.display_window));
-        append_line(out, "data", describe(part.data_window));
+        if (!part.view.empty()) append_line(out, "view", escaped(part.view));
+        append_line(out, "display", to_string(part.display_window));
+        append_line(out, "data", to_string(part.data_window));
         if (!part.storage.empty()) append_line(out, "storage", storage_of(part));
         append_channels(out, part);
         if (!part.metadata.attributes().empty()) append_line(out, "attributes", "");
         for (const Attribute& a : part.metadata.attributes())
-            out += fmt::format("    {} ({}): {}\n", a.name, a.type, shown(a.value));
+            out += fmt::format("    {} ({}): {}\n", escaped(a.name), escaped(a.type), shown(a.value));
     }
     return out;
-}
-
-// Half-open, as everywhere in Keyline: x0 <= x < x1.
-void write_window(JsonWriter& json, const char* name, const Rect& r) {
-    json.key(name).begin_object().field("x", r.x0).field("y", r.y0);
-    json.field("width", r.width()).field("height", r.height()).end_object();
 }
 
 void write_value(JsonWriter& json, const Attribute::Value& value) {
@@ -136,7 +133,9 @@ void write_part(JsonWriter& json, const ImagePart& part) {
 void write_image(JsonWriter& json, const std::string& file, const ImageDescription& image) {
     json.begin_object().field("file", file).field("format", image.format).key("parts").begin_array();
     for (const ImagePart& part : image.parts) write_part(json, part);
-    json.end_array().end_object();
+    json.end_array();
+    if (image.fault) json.field("fault", image.fault->what);
+    json.end_object();
 }
 
 // A file that can't be read keeps no other from being told.
@@ -152,6 +151,7 @@ int run(const InfoArguments& arguments) {
                 write_image(json, file, image);
             else
                 text += (text.empty() ? "" : "\n") + text_of(file, image);
+            if (image.fault) diagnostics.error(*image.fault);
         } catch (const Failure& f) {
             diagnostics.error(f.error());
         }

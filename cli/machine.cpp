@@ -3,17 +3,25 @@
 #include "cli/machine.h"
 
 #include <algorithm>
+#include <charconv>
 #include <climits>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <fmt/format.h>
 #include <fstream>
 #include <functional>
+#include <latch>
 #include <optional>
 #include <sched.h>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <sys/resource.h>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace keyline::cli {
 
@@ -56,6 +64,33 @@ std::optional<double> first_number(const fs::path& file) {
     return in >> number ? std::optional(number) : std::nullopt;  // "max" is none
 }
 
+constexpr std::size_t kMega = std::size_t{1} << 20;
+// Eighths of what a manager allots to a task alone: an eighth for what an estimate may be wrong by, and for
+// the script that started the program.
+constexpr std::size_t kOfAllotment = 7;
+
+// A whole number above 0 in the environment; nothing where there is none.
+std::optional<std::size_t> allotted(const char* name) {
+    const char* text = std::getenv(name);
+    if (!text) return std::nullopt;
+    const std::string_view all(text);
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number);
+    if (error != std::errc() || end != all.data() + all.size() || number == 0) return std::nullopt;
+    return number;
+}
+
+std::size_t limit_of_process(__rlimit_resource_t which) {
+    rlimit limit{};
+    if (getrlimit(which, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return SIZE_MAX;
+    return limit.rlim_cur;
+}
+
+// Of equals the later, which is the more particular, is named.
+void take_less(Share& least, Share other) {
+    if (other.amount <= least.amount) least = std::move(other);
+}
+
 }  // namespace
 
 std::size_t control_group_memory(const fs::path& root) {
@@ -90,18 +125,51 @@ int control_group_cores(const fs::path& root) {
     return static_cast<int>(least);
 }
 
-int available_cores() {
+Share usable_threads() {
     cpu_set_t set;
     CPU_ZERO(&set);
     const bool known = sched_getaffinity(0, sizeof set, &set) == 0;
-    const int cores = known ? CPU_COUNT(&set) : static_cast<int>(std::thread::hardware_concurrency());
-    return std::max(1, std::min(cores, control_group_cores("/")));
+    const auto cores =
+        known ? static_cast<std::size_t>(CPU_COUNT(&set)) : std::thread::hardware_concurrency();
+    Share least{std::max<std::size_t>(1, cores), "the cores that the process may run on"};
+    take_less(least, {static_cast<std::size_t>(control_group_cores("/")), "the cores of the control group"});
+    for (const char* name : {"SLURM_CPUS_PER_TASK", "CUE_THREADS", "NSLOTS"})
+        take_less(least, {allotted(name).value_or(SIZE_MAX), name});
+    return least;
 }
 
-std::size_t available_memory() {
+Share usable_memory() {
     const auto pages = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES));
     const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-    return std::min(pages * page, control_group_memory("/"));
+    Share least{pages * page / 2, "half of the machine's"};
+    const bool is_allotted =
+        allotted("SLURM_MEM_PER_NODE") || allotted("SLURM_MEM_PER_CPU") || allotted("CUE_MEMORY");
+    // The group is then the task's own.
+    const std::size_t group = control_group_memory("/");
+    take_less(least, is_allotted ? Share{group / 8 * kOfAllotment, "seven eighths of the control group's"}
+                                 : Share{group / 2, "half of the control group's"});
+    take_less(least, {limit_of_process(RLIMIT_AS) / 2, "half of the process's address space (ulimit -v)"});
+    take_less(least, {limit_of_process(RLIMIT_DATA) / 2, "half of the process's data (ulimit -d)"});
+    const auto take = [&](const char* name, std::size_t unit) {
+        if (const auto n = allotted(name); n && *n < SIZE_MAX / unit / kOfAllotment)
+            take_less(least, {*n * unit / 8 * kOfAllotment, fmt::format("seven eighths of {}", name)});
+    };
+    take("SLURM_MEM_PER_NODE", kMega);
+    take("SLURM_MEM_PER_CPU", kMega * allotted("SLURM_CPUS_PER_TASK").value_or(1));
+    take("CUE_MEMORY", 1024);
+    return least;
+}
+
+int startable_threads(int wanted) {
+    std::vector<std::thread> threads;
+    std::latch end(1);
+    try {
+        while (static_cast<int>(threads.size()) + 1 < wanted) threads.emplace_back([&end] { end.wait(); });
+    } catch (const std::system_error&) {  // the answer is how many there are
+    }
+    end.count_down();
+    for (std::thread& t : threads) t.join();
+    return static_cast<int>(threads.size()) + 1;
 }
 
 }  // namespace keyline::cli

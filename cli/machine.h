@@ -4,16 +4,29 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 
 // What of the machine this process may use.
 
 namespace keyline::cli {
 
-// Cores that the process may run on: those of its affinity, and no more than its control group's share.
-int available_cores();
+// What a process may use, and what decided it, for people.
+struct Share {
+    std::size_t amount = 0;
+    std::string by;  // "SLURM_CPUS_PER_TASK", "the cores of the control group"
+};
 
-// Bytes of memory: the machine's, or its control group's (version 1 or 2) where that is less.
-std::size_t available_memory();
+// Threads to start: as many as the least of what a render farm's manager allots to the task
+// (SLURM_CPUS_PER_TASK, CUE_THREADS, NSLOTS), the process's affinity and its control group's share.
+Share usable_threads();
+
+// Bytes to use: most of what a manager allots to the task (SLURM_MEM_PER_NODE, SLURM_MEM_PER_CPU,
+// CUE_MEMORY), half of what the machine, the control group and the limits of the process let it have; the
+// least of them.
+Share usable_memory();
+
+// How many of so many threads the system lets this process start, itself counted.
+int startable_threads(int wanted);
 
 // The control group's limit on memory in bytes, SIZE_MAX where there is none.  `root` stands for "/".
 std::size_t control_group_memory(const std::filesystem::path& root);

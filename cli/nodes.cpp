@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 #include "cli/report.h"
-#include "engine/reference.h"
-#include "engine/registry.h"
+#include "engine/graph/group.h"
+#include "engine/node/reference.h"
+#include "engine/node/registry.h"
 
 #include <memory>
 
@@ -23,6 +24,12 @@ int run(const NodesArguments& arguments) {
         print_result(schema_json() + "\n");
     } else if (arguments.type.empty()) {
         print_result(node_list_text());
+    } else if (is_group(arguments.type)) {
+        Diagnostics diagnostics;
+        const auto group = read_group(arguments.type, {}, diagnostics);
+        report(diagnostics);
+        if (group) print_result(node_text(group->type));
+        return exit_status(diagnostics);
     } else {
         const NodeType* type = registry().find(arguments.type);
         if (!type) {
@@ -40,7 +47,8 @@ int run(const NodesArguments& arguments) {
 void add_nodes(CLI::App& program, Chosen& chosen) {
     CLI::App& command = *program.add_subcommand("nodes", "The node reference: all types, or one in full");
     const auto arguments = std::make_shared<NodesArguments>();
-    CLI::Option* type = command.add_option("TYPE", arguments->type, "A node type")->type_name("");
+    CLI::Option* type =
+        command.add_option("TYPE", arguments->type, "A node type, or the file of a group")->type_name("");
     CLI::Option* markdown =
         command.add_flag("--markdown", arguments->markdown, "The whole reference as Markdown");
     CLI::Option* schema = command.add_flag("--schema", arguments->schema, "A JSON Schema of graph files");

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/render.h"
+#include "cli/machine.h"
+#include "engine/run/render.h"
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
@@ -16,13 +17,16 @@ namespace keyline::cli {
 
 struct GraphArguments {
     std::string graph;
-    std::string frames, root, ocio;
-    std::vector<std::string> set, var, only, output;
+    std::string frames, root, ocio, path_map;
+    std::vector<std::string> set, var, vars, only, output;
     std::string threads, tile, memory;
 };
 
 // The graph, and which of its nodes and frames with which values.
 void add_graph_options(CLI::App& command, GraphArguments& arguments);
+
+// The same without the graph.
+void add_graph_value_options(CLI::App& command, GraphArguments& arguments);
 
 // --threads, --tile and --memory.
 void add_machine_options(CLI::App& command, GraphArguments& arguments);
@@ -34,10 +38,22 @@ CLI::Option* add_value_option(CLI::App& command, const std::string& name, std::s
 struct LoadedGraph {
     std::unique_ptr<const Graph> graph;  // null where there was an error; the diagnostics have it
     RenderOptions options;               // frames as typed: none without --frames
+    bool no_frames = false;              // --frames names a list, and there is none in it
+    Share threads, memory;               // what decided them
 };
 
 // Reads the options and the graph; whatever is wrong with either is told.
 LoadedGraph load_graph(const GraphArguments& arguments, Diagnostics& diagnostics);
+
+// As a shell takes it for one word.
+std::string shell_word(const std::string& text);
+
+// "GRAPH --set … --var …": what says what is rendered, as one types it in a shell; without --frames.
+std::string options_text(const GraphArguments& arguments);
+
+// "keyline render GRAPH" with the options that say what is rendered, as one types it in a shell; without
+// --frames.
+std::string command_of(const GraphArguments& arguments);
 
 // "512M", "1.5G", "4096": bytes, with powers of 1024.  Throws Failure (kGraph) for anything else and for 0.
 std::size_t parse_size(const std::string& text);

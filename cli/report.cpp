@@ -2,14 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/report.h"
 
-#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <new>
 #include <string>
 #include <system_error>
+#include <unistd.h>
 
 namespace keyline::cli {
+
+void fill_closed_streams() {
+    // A system opens the lowest free descriptor.  Each is opened for what its stream is not used for: what a
+    // command would print is still told to be lost.
+    for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+        if (fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+        if (open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream) _exit(1);
+    }
+}
 
 void print_result(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
@@ -19,16 +31,39 @@ void print_message(std::string_view line) {
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+namespace {
+
+std::atomic<void (*)(const Error&)> library_printer{[](const Error& e) { print_message(e.warning_text()); }};
+
+}  // namespace
+
+void print_library_warning(const std::string& library, const std::string& text) {
+    library_printer.load()({ErrorKind::kFailed, {}, {}, library + ": " + text, {}});
+}
+
+void print_library_warnings_with(void (*print)(const Error&)) { library_printer = print; }
+
 void report(const Diagnostics& diagnostics) {
     for (const Error& w : diagnostics.warnings()) print_message(w.warning_text());
     for (const Error& e : diagnostics.errors()) print_message(e.text());
 }
 
+Error error_of(const std::exception_ptr& thrown) {
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const Failure& f) {
+        return f.error();
+    } catch (const std::bad_alloc&) {
+        return {
+            ErrorKind::kFailed, {}, {}, "out of memory", "a smaller --memory makes a render use less of it",
+            Passing::kMemory};
+    } catch (const std::exception& e) {
+        return {ErrorKind::kInternal, {}, {}, e.what(), {}};
+    }
+}
+
 int exit_status(const Diagnostics& diagnostics) {
-    if (diagnostics.ok()) return 0;
-    const bool graph =
-        std::ranges::any_of(diagnostics.errors(), [](const Error& e) { return e.kind == ErrorKind::kGraph; });
-    return exit_status(graph ? ErrorKind::kGraph : diagnostics.errors().front().kind);
+    return diagnostics.ok() ? 0 : exit_status(decisive(diagnostics.errors()));
 }
 
 void finish_results() {

@@ -10,7 +10,8 @@ namespace keyline::cli {
 
 namespace {
 
-constexpr std::array kSignals{SIGINT, SIGTERM};
+// SIGHUP: the terminal or the connection that the render was started from is gone.
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 
 // A signal's handler can be given nothing: these are the only way to hear of it.
 std::atomic<bool> stop_requested{false};
@@ -48,5 +49,9 @@ StopOnSignal::~StopOnSignal() {
 
 const std::atomic<bool>& StopOnSignal::requested() const { return stop_requested; }
 int StopOnSignal::signal() const { return signal_received; }
+
+const char* StopOnSignal::signal_name() const {
+    return signal() == SIGINT ? "SIGINT" : signal() == SIGHUP ? "SIGHUP" : "SIGTERM";
+}
 
 }  // namespace keyline::cli

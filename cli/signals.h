@@ -6,8 +6,8 @@
 
 namespace keyline::cli {
 
-// While it lives, a first SIGINT or SIGTERM asks for an end and a second one ends the process.  A signal that
-// was ignored before stays ignored, as in a job under nohup.  One at a time.
+// While it lives, a first SIGINT, SIGTERM or SIGHUP asks for an end and a second one ends the process.  A
+// signal that was ignored before stays ignored, as in a job under nohup.  One at a time.
 class StopOnSignal {
 public:
     StopOnSignal();
@@ -19,7 +19,9 @@ public:
     const std::atomic<bool>& requested() const;
     int signal() const;  // 0 before
 
-    // 130 after SIGINT, 143 after SIGTERM.
+    const char* signal_name() const;  // "SIGTERM"
+
+    // 130 after SIGINT, 143 after SIGTERM, 129 after SIGHUP.
     int exit_status() const { return 128 + signal(); }
 };
 

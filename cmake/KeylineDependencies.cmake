@@ -7,4 +7,5 @@ find_package(hwy QUIET CONFIG)
 # Debian ships no CMake package for these.
 pkg_check_modules(OpenColorIO REQUIRED IMPORTED_TARGET OpenColorIO)
 pkg_check_modules(libdeflate REQUIRED IMPORTED_TARGET libdeflate)
+pkg_check_modules(libxxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(libhwy REQUIRED IMPORTED_TARGET libhwy)

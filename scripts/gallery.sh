@@ -34,12 +34,13 @@ for pass in beauty albedo light normals near; do
   mv "$images/pass/$pass.00$frame.png" "$images/pass-$pass.png"
 done
 rmdir $images/pass
-for graph in canny saito_takahashi decaudin cel_matte cel_plastic cel_metallic gooch phong brick_and_wood hatch; do
+for graph in canny saito_takahashi decaudin cel_matte cel_plastic cel_metallic gooch phong brick_and_wood hatch ink; do
   render $graph --var out="$PWD/$images/$graph.png"
 done
 scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
 render lines_over_beauty --var look="$PWD/$images/lines_over_beauty.png" --var out="$scratch/lines.exr"
+build/release/bin/keyline render graphs/garden.json --frames 12 --progress none --var out="$PWD/$images/garden.png"
 render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
 
 {
@@ -48,8 +49,16 @@ render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
   echo "Every graph that comes with Keyline, on the plate that comes with it, beside the pass that it should be held"
   echo "against. Made by \`scripts/gallery.sh\`."
   echo
+  echo "## garden"
+  echo
+  echo "$(about garden). [graphs/garden.json](../graphs/garden.json)"
+  echo
+  echo "![garden](images/garden.png)"
+  echo
   row toon beauty "Shadows are where the render has them, in two flat tones; each outline is closed, and its ink takes \
 after the object that it belongs to."
+  row ink albedo "Strokes: each line has one width along its way, grows thin where it fades, and ends in a tip where it \
+just ends."
   row lines_over_beauty beauty "The same detector on a softened picture; the lines are made bold and laid over the render."
   row canny beauty "Texture is drawn like shape, as the detector sees grey alone: the mortar, the grain of the floor, \
 the rims of shadows."

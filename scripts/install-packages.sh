@@ -6,9 +6,9 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config
-  libopenexr-dev libimath-dev libopenimageio-dev libopencolorio-dev libdeflate-dev
+  libopenexr-dev libimath-dev libopenimageio-dev libopencolorio-dev libdeflate-dev libxxhash-dev
   libtbb-dev libhwy-dev libfmt-dev nlohmann-json3-dev libcli11-dev
-  libgtest-dev libgmock-dev
+  libgtest-dev libgmock-dev python3
   "$@"
 )
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/io/describe_image.h"
 
-#include "engine/io/exr_file.h"
-#include "engine/io/exr_header.h"
-#include "engine/io/exr_metadata.h"
+#include "engine/io/exr/chunk_table.h"
+#include "engine/io/exr/file.h"
+#include "engine/io/exr/header.h"
+#include "engine/io/exr/metadata.h"
 
 namespace keyline {
 
@@ -39,7 +40,7 @@ ImagePart describe_part(const exr::Part& part) {
 // An image that the engine opened; its groups are all there is to know of its storage.
 ImageDescription describe_source(const ImageSource& source) {
     const ImageHeader& header = source.header();
-    ImageDescription out{header.format, {}};
+    ImageDescription out{header.format, {}, {}};
     for (const ChannelGroup& group : header.groups) {
         ImagePart part;
         part.display_window = header.display_window;
@@ -59,9 +60,16 @@ ImageDescription describe_image(const std::filesystem::path& file) {
     input.read_some(0, start);
     if (start != exr::kMagic) return describe_source(*open_image(file));
     const exr::ReadContext context(input);
-    ImageDescription out{"openexr", {}};
-    for (const exr::Part& part : exr::read_parts(input, context, exr::read_attributes(input)))
-        out.parts.push_back(describe_part(part));
+    ImageDescription out{"openexr", {}, {}};
+    uint64_t tables = 0;
+    auto attributes = exr::read_attributes(input, &tables);
+    const std::vector<exr::Part> parts = exr::read_parts(input, context, std::move(attributes));
+    for (const exr::Part& part : parts) out.parts.push_back(describe_part(part));
+    try {
+        exr::check_chunk_tables(input, context, parts, tables);
+    } catch (const Failure& f) {
+        out.fault = f.error();
+    }
     return out;
 }
 

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
+#include "engine/base/error.h"
 #include "engine/io/image_source.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace keyline {
+namespace KEYLINE_API keyline {
 
 // One part of an image file as it is stored: every view, and deep ones too.
 struct ImagePart {
@@ -24,6 +27,7 @@ struct ImagePart {
 struct ImageDescription {
     std::string format;  // "openexr", "png", …
     std::vector<ImagePart> parts;
+    std::optional<Error> fault;  // what the headers do not tell: chunks that are not there
 };
 
 // What a file holds, from its headers.  Throws Failure (kInput) as open_image() does, but neither views nor

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/image.h"
+#include "engine/base/api.h"
+#include "engine/base/image.h"
+#include "engine/base/metadata.h"
 #include "engine/io/image_source.h"
-#include "engine/metadata.h"
 
 #include <filesystem>
 #include <memory>
@@ -12,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace keyline {
+namespace KEYLINE_API keyline {
 
 // What a sample of an output is stored as.
 enum class Depth : uint8_t { kAuto, kHalf, kFloat, kUint8, kUint16 };
@@ -60,9 +61,6 @@ public:
 
     // Checks that every chunk is there, syncs, and gives the file its name.  Throws Failure (kOutput).
     virtual void finish() = 0;
-
-    // Bytes that one encode() needs for itself while it runs.
-    virtual std::size_t chunk_memory() const = 0;
 };
 
 // What of an output is held until it is encoded, known before it is made: whole chunks of so many rows.
@@ -80,10 +78,10 @@ std::unique_ptr<ImageSink> create_image(const std::filesystem::path& file, const
 // Throws what create_image() would for a format that can't hold what is asked, and makes nothing.
 void check_image(const std::filesystem::path& file, const SinkSpec& spec);
 
-// Whether `file` opens and has the windows and channels of `spec` (--skip-existing).
+// Whether `file` has the windows and channels of `spec` and, as far as its structure tells, is whole.
 bool is_finished(const std::filesystem::path& file, const SinkSpec& spec);
 
-// Removes unfinished outputs for `file` whose process, on this host, no longer lives.
+// Removes the unfinished outputs in the folder of `file` that nobody is at work on any more.
 void remove_leftovers(const std::filesystem::path& file);
 
 }  // namespace keyline

@@ -1,15 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/error.h"
-#include "engine/io/exr_file.h"
-#include "engine/io/exr_format.h"
-#include "engine/io/exr_reader.h"
-#include "engine/io/exr_writer.h"
-#include "engine/io/image_module.h"
+#include "engine/base/error.h"
+#include "engine/io/exr/file.h"
+#include "engine/io/exr/format.h"
+#include "engine/io/exr/reader.h"
+#include "engine/io/exr/writer.h"
+#include "engine/io/file_identity.h"
 #include "engine/io/image_sink.h"
 #include "engine/io/image_source.h"
+#include "engine/io/oiio/reader.h"
+#include "engine/io/oiio/writer.h"
+#include "engine/io/other_formats.h"
 #include "engine/io/output_file.h"
 #include "engine/io/output_format.h"
+#include "engine/io/sink_memory.h"
+#include "engine/io/system_call.h"
+#include "engine/io/unfinished.h"
 
 #include <algorithm>
 #include <array>
@@ -19,58 +25,53 @@ namespace keyline {
 
 namespace {
 
+// What was created and is about to be written is empty for a while.
 bool has_exr_content(const std::filesystem::path& file) {
+    const exr::InputFile in(file);
+    if (in.size() == 0)
+        fail(ErrorKind::kInput, fmt::format("{}: the file is empty", file.string()), kUnfinishedHint,
+             Passing::kUnfinished);
     std::array<std::byte, exr::kMagic.size()> start = {};
-    exr::InputFile(file).read_some(0, start);
+    in.read_some(0, start);
     return start == exr::kMagic;
 }
 
-bool same_channels(std::vector<ChannelInfo> a, std::vector<ChannelInfo> b) {
-    std::ranges::sort(a, {}, &ChannelInfo::name);
-    std::ranges::sort(b, {}, &ChannelInfo::name);
-    return a == b;
-}
-
-bool is_finished_exr(const ImageHeader& header, const SinkSpec& spec) {
-    const exr::Layout planned = exr::layout_of(spec);
-    std::vector<ChannelInfo> channels;
-    for (const exr::StoredChannel& channel : planned.channels)
-        channels.push_back({channel.name, channel.type});
-    return header.display_window == planned.display_window && header.data_window == planned.data_window &&
-           header.groups.size() == 1 && same_channels(header.groups[0].channels, channels);
-}
-
-// Formats without windows hold the display window, from (0, 0) on; those without names or types choose them.
-bool is_finished_other(const ImageHeader& header, const SinkSpec& spec) {
-    std::size_t channels = 0;
-    for (const ChannelGroup& group : header.groups) channels += group.channels.size();
-    return header.display_window.width() == spec.display_window.width() &&
-           header.display_window.height() == spec.display_window.height() && channels == spec.channels.size();
+std::unique_ptr<FileSource> open_file(const std::filesystem::path& file, const OpenOptions& options) {
+    if (has_exr_content(file)) return exr::open_exr(file, options);
+    if (!is_other_format(file))
+        fail(ErrorKind::kInput,
+             fmt::format("{}: not an OpenEXR file, as its name says it is", file.string()));
+    return oiio::open_picture(file, options);
 }
 
 }  // namespace
 
+Digest image_digest(const std::filesystem::path& file, const OpenOptions& options) {
+    return Digester("image").add(file_identity(file)).add(options.part).add(options.view).digest();
+}
+
 std::unique_ptr<ImageSource> open_image(const std::filesystem::path& file, const OpenOptions& options) {
-    if (has_exr_content(file)) return exr::open_exr(file, options);
-    if (!needs_module(file))
-        fail(ErrorKind::kInput,
-             fmt::format("{}: not an OpenEXR file, as its name says it is", file.string()));
-    return open_with_module(file, options);
+    // Before it is opened: a file replaced meanwhile has another identity when it is asked for again.
+    const Digest digest = image_digest(file, options);
+    std::unique_ptr<FileSource> source = open_file(file, options);
+    source->set_file(file);
+    source->set_digest(digest);
+    return source;
 }
 
 std::unique_ptr<ImageSink> create_image(const std::filesystem::path& file, const SinkSpec& spec) {
-    return !needs_module(file) ? exr::create_exr(file, spec) : create_with_module(file, spec);
+    return !is_other_format(file) ? exr::create_exr(file, spec) : oiio::create_picture(file, spec);
 }
 
 void check_image(const std::filesystem::path& file, const SinkSpec& spec) {
-    if (!needs_module(file))
+    if (!is_other_format(file))
         exr::layout_of(spec);
     else
         picture_layout(file, spec);
 }
 
 SinkShape sink_shape(const std::filesystem::path& file, const SinkSpec& spec) {
-    if (needs_module(file)) {
+    if (is_other_format(file)) {
         const Rect& rows = spec.display_window;
         return {std::min(kPictureChunkRows, rows.height()),
                 spec.channels.size() * sizeof(float) * static_cast<std::size_t>(rows.width())};
@@ -82,19 +83,13 @@ SinkShape sink_shape(const std::filesystem::path& file, const SinkSpec& spec) {
             pixel * static_cast<std::size_t>(layout.data_window.width())};
 }
 
-bool is_finished(const std::filesystem::path& file, const SinkSpec& spec) {
-    try {
-        const std::unique_ptr<ImageSource> image = open_image(file);
-        return !needs_module(file) ? is_finished_exr(image->header(), spec)
-                                   : is_finished_other(image->header(), spec);
-    } catch (const Failure& failure) {
-        // Not there, or not readable: to be made.  What can't be made is for create_image() to say.
-        if (failure.error().kind == ErrorKind::kInput || failure.error().kind == ErrorKind::kGraph)
-            return false;
-        throw;
-    }
+SinkMemory sink_memory(const std::filesystem::path& file, const SinkSpec& spec) {
+    return is_other_format(file) ? picture_memory(file, spec) : exr::memory_of(spec);
 }
 
-void remove_leftovers(const std::filesystem::path& file) { remove_unfinished(file); }
+void remove_leftovers(const std::filesystem::path& file) {
+    const std::filesystem::path folder = behind_links(file).parent_path();
+    remove_unfinished(folder.empty() ? "." : folder);
+}
 
 }  // namespace keyline

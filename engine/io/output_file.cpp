@@ -2,19 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/io/output_file.h"
 
-#include "engine/error.h"
+#include "engine/base/error.h"
+#include "engine/io/system_call.h"
+#include "engine/io/unfinished.h"
 
-#include <array>
-#include <cerrno>
-#include <charconv>
-#include <climits>
-#include <csignal>
-#include <cstdio>
+#include <chrono>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <string_view>
 #include <sys/stat.h>
-#include <system_error>
+#include <thread>
 #include <unistd.h>
 
 namespace keyline {
@@ -23,51 +19,47 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Opened, as a file server is then asked anew.  Some give a file another number under another name: one of
+// that size, last written at that instant, is taken for it too.
+bool stands_under(const fs::path& name, const struct stat& own) {
+    const int file = open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    struct stat there = {};
+    const bool is_there = (file < 0 ? lstat(name.c_str(), &there) : fstat(file, &there)) == 0;
+    if (file >= 0) close(file);
+    const bool is_same = there.st_dev == own.st_dev && there.st_ino == own.st_ino;
+    return is_there &&
+           (is_same || (there.st_size == own.st_size && there.st_mtim.tv_sec == own.st_mtim.tv_sec &&
+                        there.st_mtim.tv_nsec == own.st_mtim.tv_nsec));
+}
+
 constexpr mode_t kMode = 0666;              // less the umask
 constexpr int kMostLinks = 40;              // as the kernel has it
 constexpr uint64_t kSyncStep = 4ULL << 20;  // bytes
+constexpr int kMostNames = 16;  // tried; two equal random ones in a row mean that something is wrong
 
-std::string host_name() {
-    std::array<char, HOST_NAME_MAX + 1> name = {};
-    if (gethostname(name.data(), name.size() - 1) != 0) return "localhost";
-    return name.data();
-}
-
-// ".STEM.HOST." and ".keyline.EXT": what stands before and after the process.  A stem that is too long for a
-// file name with all that is cut.
-struct UnfinishedName {
-    std::string before, after;
-
-    explicit UnfinishedName(const fs::path& target) : after(".keyline" + target.extension().string()) {
-        const std::string host = host_name();
-        const std::size_t others = host.size() + after.size() + std::string_view("...4294967295").size();
-        const std::size_t room = others < NAME_MAX ? NAME_MAX - others : 0;
-        before = fmt::format(".{}.{}.", target.stem().string().substr(0, room), host);
-    }
-
-    std::string of(pid_t process) const { return fmt::format("{}{}{}", before, process, after); }
-
-    // The process of a name that is formed so; 0 for any other.
-    pid_t process(std::string_view name) const {
-        if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||
-            !name.ends_with(after))
-            return 0;
-        const std::string_view digits =
-            name.substr(before.size(), name.size() - before.size() - after.size());
-        pid_t process = 0;
-        const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), process);
-        return parsed.ec == std::errc() && parsed.ptr == digits.data() + digits.size() ? process : 0;
-    }
-};
-
-// This process has not begun with the file yet: what bears its number is of an earlier one.
-bool is_gone(pid_t process) { return process == getpid() || (kill(process, 0) != 0 && errno == ESRCH); }
+// How often and how long a lost answer of a file server is waited for: systems remember names for a second.
+constexpr int kMostLooks = 15;
+constexpr std::chrono::milliseconds kBetweenLooks(100);
 
 fs::path folder_of(const fs::path& target) {
     return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
 std::string in_proc(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+
+[[noreturn]] void fail_with(const std::string& name, int error) {
+    fail(ErrorKind::kOutput, fmt::format("{}: can't be written: {}", name, system_text(error)),
+         system_hint(error), system_passing(error));
+}
+
+// The first of a path and the folders above it that is there.
+fs::path nearest_there(fs::path folder) {
+    std::error_code error;
+    while (!fs::exists(fs::symlink_status(folder, error)) && folder.has_parent_path() &&
+           folder != folder.parent_path())
+        folder = folder.parent_path();
+    return folder.empty() || !fs::exists(fs::symlink_status(folder, error)) ? fs::path(".") : folder;
+}
 
 }  // namespace
 
@@ -81,53 +73,69 @@ fs::path behind_links(const fs::path& file) {
     return target;
 }
 
-void remove_unfinished(const fs::path& file) {
+void check_can_write(const fs::path& file) {
+    const std::string name = file.string();
     const fs::path target = behind_links(file);
-    const UnfinishedName name(target);
-    std::error_code error;
-    for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end;
-         entry.increment(error)) {
-        const pid_t process = name.process(entry->path().filename().string());
-        std::error_code ignored;  // another process may have removed it, or it is not ours to remove
-        if (process > 0 && is_gone(process)) fs::remove(entry->path(), ignored);
+    if (!target.has_filename()) fail_with(name, EISDIR);
+    struct stat status = {};
+    if (again_if_stale([&] { return stat(target.c_str(), &status); }) == 0) {
+        if (S_ISDIR(status.st_mode)) fail_with(name, EISDIR);
+        if (!S_ISREG(status.st_mode))
+            fail(ErrorKind::kOutput, fmt::format("{}: can't be written: not a regular file", name));
+        if (access(target.c_str(), W_OK) != 0) fail_with(name, errno);
+    } else if (errno != ENOENT) {
+        fail_with(name, errno);
     }
+    const fs::path folder = nearest_there(folder_of(target));
+    if (access(folder.c_str(), W_OK | X_OK) != 0) fail_with(name, errno);
+    const long longest = pathconf(folder.c_str(), _PC_NAME_MAX);
+    if (longest > 0 && target.filename().string().size() > static_cast<std::size_t>(longest))
+        fail_with(name, ENAMETOOLONG);
 }
 
 OutputFile::OutputFile(const fs::path& file, Unfinished unfinished)
     : name_(file.string()), target_(behind_links(file)) {
-    if (!target_.has_filename()) fail_with(EISDIR);
+    check_can_write(file);
     std::error_code error;
-    fs::create_directories(folder_of(target_), error);
-    if (error) fail_with(error.value());
-    struct stat status = {};
-    if (stat(target_.c_str(), &status) == 0) {
-        if (S_ISDIR(status.st_mode)) fail_with(EISDIR);
-        if (!S_ISREG(status.st_mode))
-            fail(ErrorKind::kOutput, fmt::format("{}: can't be written: not a regular file", name_));
-        if (access(target_.c_str(), W_OK) != 0) fail_with(errno);
-    } else if (errno != ENOENT) {
-        fail_with(errno);
-    }
-    unfinished_ = folder_of(target_) / UnfinishedName(target_).of(getpid());
-    open_unfinished(unfinished);
+    const auto make_folders = [&] {
+        fs::create_directories(folder_of(target_), error);
+        return errno = error.value(), error ? -1 : 0;
+    };
+    if (again_if_stale(make_folders) != 0) fail_with(name_, errno);
+    if (unfinished == Unfinished::kUnnamedWherePossible) open_unnamed();
+    if (descriptor_ < 0) open_named();
 }
 
-void OutputFile::open_unfinished(Unfinished unfinished) {
-    if (unfinished == Unfinished::kUnnamedWherePossible) {
-        descriptor_ = open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kMode);
-        // Without /proc it could never be given a name.
-        if (descriptor_ >= 0 && access(in_proc(descriptor_).c_str(), F_OK) == 0) return;
-        if (descriptor_ >= 0) close(descriptor_);
+void OutputFile::open_unnamed() {
+    descriptor_ = open(folder_of(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kMode);
+    if (descriptor_ < 0) return;
+    // Without /proc it could never be given a name.
+    if (access(in_proc(descriptor_).c_str(), F_OK) == 0 && claim(descriptor_)) return;
+    close(descriptor_);
+    descriptor_ = -1;
+}
+
+void OutputFile::open_named() {
+    for (int i = 0; i < kMostNames; ++i) {
+        unfinished_ = folder_of(target_) / unfinished_name(target_);
+        descriptor_ = again_if_stale(
+            [&] { return open(unfinished_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kMode); });
+        if (descriptor_ < 0 && errno == EEXIST) continue;
+        if (descriptor_ < 0) fail_with(name_, errno);
+        has_name_ = true;
+        // Another process may have found it in the moment before it was claimed.
+        struct stat status = {};
+        if (claim(descriptor_) && fstat(descriptor_, &status) == 0 && status.st_nlink > 0) return;
+        discard();
     }
-    unlink(unfinished_.c_str());  // of an earlier process of the same number
-    descriptor_ = open(unfinished_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, kMode);
-    if (descriptor_ < 0) fail_with(errno);
-    has_name_ = true;
+    fail_with(name_, EEXIST);
 }
 
 OutputFile::~OutputFile() { discard(); }
 
 void OutputFile::discard() {
+    // Closed first: what is open can't be removed from a server, but gets another name there until it is
+    // closed.
     if (descriptor_ >= 0) close(descriptor_);
     if (has_name_) unlink(unfinished_.c_str());
     descriptor_ = -1;
@@ -154,7 +162,7 @@ void OutputFile::overwrite(uint64_t offset, std::span<const std::byte> bytes) {
 void OutputFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t n = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-        if (n < 0 && errno != EINTR) fail_with(errno);
+        if (n < 0 && errno != EINTR) fail_with(name_, errno);
         if (n <= 0) continue;
         bytes = bytes.subspan(static_cast<std::size_t>(n));
         offset += static_cast<uint64_t>(n);
@@ -162,25 +170,67 @@ void OutputFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
 }
 
 void OutputFile::publish() {
-    if (fsync(descriptor_) != 0) fail_with(errno);
-    if (!has_name_) {
-        // A link can't replace a file, a rename can.
-        unlink(unfinished_.c_str());
-        if (linkat(AT_FDCWD, in_proc(descriptor_).c_str(), AT_FDCWD, unfinished_.c_str(),
-                   AT_SYMLINK_FOLLOW) != 0)
-            fail_with(errno);
-        has_name_ = true;
-    }
-    if (rename(unfinished_.c_str(), target_.c_str()) != 0) fail_with(errno);
-    has_name_ = false;
+    take_over_mode();
+    if (fsync(descriptor_) != 0) fail_with(name_, errno);
+    if (!has_name_) link_unnamed();
+    rename_to_target();
+    sync_folder();
     const int descriptor = descriptor_;
     descriptor_ = -1;
-    if (close(descriptor) != 0) fail_with(errno);
+    if (close(descriptor) != 0) fail_with(name_, errno);
 }
 
-void OutputFile::fail_with(int error) const {
-    fail(ErrorKind::kOutput,
-         fmt::format("{}: can't be written: {}", name_, std::generic_category().message(error)));
+// Who shares the older file goes on sharing it.  A group that can't be given gets no more than everybody.
+void OutputFile::take_over_mode() const {
+    struct stat old = {}, own = {};
+    if (stat(target_.c_str(), &old) != 0 || !S_ISREG(old.st_mode)) return;
+    if (fchown(descriptor_, old.st_uid, old.st_gid) != 0 &&
+        fchown(descriptor_, static_cast<uid_t>(-1), old.st_gid) != 0 && fstat(descriptor_, &own) == 0 &&
+        own.st_gid != old.st_gid)
+        old.st_mode &= ~mode_t{S_IRWXG} | ((old.st_mode & S_IRWXO) << 3U);
+    // A file system without modes refuses; then there was none to keep.
+    [[maybe_unused]] const int done = fchmod(descriptor_, old.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
+}
+
+// A link can't replace a file, a rename can.
+void OutputFile::link_unnamed() {
+    for (int i = 0; i < kMostNames; ++i) {
+        unfinished_ = folder_of(target_) / unfinished_name(target_);
+        if (linkat(AT_FDCWD, in_proc(descriptor_).c_str(), AT_FDCWD, unfinished_.c_str(),
+                   AT_SYMLINK_FOLLOW) == 0) {
+            has_name_ = true;
+            return;
+        }
+        if (errno != EEXIST) fail_with(name_, errno);
+    }
+    fail_with(name_, EEXIST);
+}
+
+// A file server whose answer was lost is asked again by the system, and finds nothing left to rename.
+void OutputFile::rename_to_target() {
+    struct stat own = {};
+    if (fstat(descriptor_, &own) != 0) fail_with(name_, errno);
+    if (again_if_stale([&] { return rename(unfinished_.c_str(), target_.c_str()); }) != 0) {
+        const int error = errno;
+        bool done = stands_under(target_, own);
+        const bool is_moved = !done && error == ENOENT && unlink(unfinished_.c_str()) != 0 && errno == ENOENT;
+        for (int i = 0; is_moved && !done && i < kMostLooks; ++i) {
+            std::this_thread::sleep_for(kBetweenLooks);
+            done = stands_under(target_, own);
+        }
+        if (!done) fail_with(name_, error);
+    }
+    has_name_ = false;
+}
+
+// So that not only the bytes outlive a loss of power, but their name too.
+void OutputFile::sync_folder() const {
+    const int folder = open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;  // it may be written to and not read: nothing can be asked for
+    const int error = fsync(folder) == 0 ? 0 : errno;
+    close(folder);
+    // Others mean that this file system has no such call.
+    if (error == EIO || error == ENOSPC || error == EDQUOT) fail_with(name_, error);
 }
 
 }  // namespace keyline

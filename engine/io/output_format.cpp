@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/io/output_format.h"
 
-#include "engine/channels.h"
-#include "engine/error.h"
+#include "engine/base/bad_value.h"
+#include "engine/base/channels.h"
 
 #include <algorithm>
 #include <cctype>
@@ -20,10 +20,18 @@ constexpr Depth k8 = Depth::kUint8, k16 = Depth::kUint16, kF = Depth::kFloat;
 // round without a word what their format lacks (one aborts), so that asking them would not do.
 const std::vector<OutputFormat>& output_formats() {
     static const std::vector<OutputFormat> formats = {
-        {.name = "bmp", .extensions = {"bmp"}, .depths = {k8}, .channel_sets = {"Y", "RGB", "RGBA"}},
-        {.name = "dpx", .extensions = {"dpx"}, .depths = {kF, k16, k8}, .channel_sets = {"Y", "RGB", "RGBA"}},
+        {.name = "bmp",
+         .extensions = {"bmp"},
+         .depths = {k8},
+         .channel_sets = {"Y", "RGB", "RGBA"},
+         .frames_held = 0.7},
+        {.name = "dpx",
+         .extensions = {"dpx"},
+         .depths = {kF, k16, k8},
+         .channel_sets = {"Y", "RGB", "RGBA"},
+         .frames_held = 1},
         {.name = "fits", .extensions = {"fits"}, .depths = {kF, k8}, .channel_sets = {"Y"}},
-        {.name = "gif", .extensions = {"gif"}, .depths = {k8}, .channel_sets = {"RGB"}},
+        {.name = "gif", .extensions = {"gif"}, .depths = {k8}, .channel_sets = {"RGB"}, .frames_held = 7.7},
         {.name = "hdr", .extensions = {"hdr", "rgbe"}, .depths = {kF}, .channel_sets = {"RGB"}},
         {.name = "heif",
          .extensions = {"heic", "heif"},
@@ -36,18 +44,21 @@ const std::vector<OutputFormat>& output_formats() {
          .depths = {k8},
          .channel_sets = {"RGB", "RGBA"},
          .tiled = true,
-         .compressions = {"rle"}},
+         .compressions = {"rle"},
+         .frames_held = 1},
         {.name = "jpeg",
          .extensions = {"jpg", "jpeg", "jpe", "jif", "jfif", "jfi"},
          .depths = {k8},
          .channel_sets = {"Y", "RGB"},
          .compressions = {"jpeg"},
-         .has_quality = true},
+         .has_quality = true,
+         .frames_held = 0.25},
         {.name = "jpeg2000",
          .extensions = {"jp2", "j2k"},
          .depths = {k16, k8},
          .channel_sets = {"Y", "RGB", "RGBA"},
-         .straight_alpha = true},
+         .straight_alpha = true,
+         .frames_held = 7.2},
         {.name = "png",
          .extensions = {"png"},
          .depths = {k16, k8},
@@ -79,7 +90,8 @@ const std::vector<OutputFormat>& output_formats() {
          .channel_sets = {"RGB", "RGBA"},
          .straight_alpha = true,
          .compressions = {"webp"},
-         .has_quality = true},
+         .has_quality = true,
+         .frames_held = 3.6},
         {.name = "zfile", .extensions = {"zfile"}, .depths = {kF}, .channel_sets = {"Y"}},
     };
     return formats;
@@ -116,10 +128,16 @@ const OutputFormat& output_format(const std::filesystem::path& file) {
     fail(ErrorKind::kGraph, fmt::format("{}: {}", file.string(), what), hint);
 }
 
+// Where it is not the file's name that is wrong.
+[[noreturn]] void refuse_value(const std::string& value, const std::filesystem::path& file,
+                               const std::string& what, const std::string& hint) {
+    throw BadValue(value, fmt::format("{}: {}", file.string(), what), hint);
+}
+
 std::optional<std::size_t> index_of(const std::vector<ChannelInfo>& channels, std::string_view name) {
-    const auto found = std::ranges::find(channels, name, &ChannelInfo::name);
-    if (found == channels.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - channels.begin());
+    std::vector<std::string> names;
+    for (const ChannelInfo& c : channels) names.push_back(c.name);
+    return find_spelled(names, name);
 }
 
 // The largest set of the format that the channels hold; "" for none.
@@ -136,7 +154,8 @@ std::string_view largest_set(const OutputFormat& format, const std::vector<Chann
 std::vector<std::string> names_beside(std::string_view set, const std::vector<ChannelInfo>& channels) {
     std::vector<std::string> names;
     for (const ChannelInfo& channel : channels)
-        if (channel.name.size() != 1 || set.find(channel.name) == std::string_view::npos)
+        if (const auto component = component_of(channel.name);
+            component.empty() || set.find(component) == std::string_view::npos)
             names.push_back(channel.name);
     return names;
 }
@@ -178,10 +197,10 @@ Depth depth_of(const std::filesystem::path& file, const OutputFormat& format, De
     if (std::ranges::find(format.depths, wanted) != format.depths.end()) return wanted;
     std::vector<std::string> names;
     for (const Depth depth : format.depths) names.emplace_back(depth_name(depth));
-    refuse(file,
-           fmt::format("{} has no depth {}; it has {}", format.name, in_quotes(depth_name(wanted)),
-                       listed(names)),
-           {});
+    refuse_value(depth_name(wanted), file,
+                 fmt::format("{} has no depth {}; it has {}", format.name, in_quotes(depth_name(wanted)),
+                             listed(names)),
+                 {});
 }
 
 bool is_quality(std::string_view text) {
@@ -202,12 +221,22 @@ std::string compression_of(const std::filesystem::path& file, const OutputFormat
         is_quality(std::string_view(wanted).substr(colon + 1)))
         return wanted;
     const std::string what = fmt::format("{} has no compression {}", format.name, in_quotes(wanted));
-    if (known.empty()) refuse(file, what + "; there is no choice", "leave 'compression' out");
-    refuse(file,
-           fmt::format(
-               "{}; it has {}{}", what, listed({known.begin(), known.end()}),
-               format.has_quality ? fmt::format(" ('{}:90' with a quality of 1 to 100)", known.front()) : ""),
-           did_you_mean(wanted, {known.begin(), known.end()}));
+    if (known.empty()) refuse_value(wanted, file, what + "; there is no choice", "leave 'compression' out");
+    refuse_value(
+        wanted, file,
+        fmt::format(
+            "{}; it has {}{}", what, listed({known.begin(), known.end()}),
+            format.has_quality ? fmt::format(" ('{}:90' with a quality of 1 to 100)", known.front()) : ""),
+        did_you_mean(wanted, {known.begin(), known.end()}));
+}
+
+// Ids are bits: no format but OpenEXR has integers of 32, and few have floats.
+void refuse_ids(const std::filesystem::path& file, const OutputFormat& format,
+                const std::vector<ChannelInfo>& channels, Depth depth) {
+    for (const ChannelInfo& c : channels)
+        if (c.exact && (depth != Depth::kFloat || c.type == SampleType::kUint))
+            refuse(file, fmt::format("{} can't hold the ids in {}", format.name, in_quotes(c.name)),
+                   "write them to an OpenEXR file, or leave them out with 'channels'");
 }
 
 }  // namespace
@@ -218,8 +247,20 @@ bool OutputFormat::holds(std::string_view channel_set) const {
 
 PictureLayout picture_layout(const std::filesystem::path& file, const SinkSpec& spec) {
     const OutputFormat& format = output_format(file);
-    return {format, order_of(file, format, spec.channels), depth_of(file, format, spec.depth),
-            compression_of(file, format, spec.compression)};
+    PictureLayout layout{format, order_of(file, format, spec.channels), depth_of(file, format, spec.depth),
+                         compression_of(file, format, spec.compression)};
+    refuse_ids(file, format, spec.channels, layout.depth);
+    return layout;
+}
+
+SinkMemory picture_memory(const std::filesystem::path& file, const SinkSpec& spec) {
+    const PictureLayout layout = picture_layout(file, spec);
+    const Rect& window = spec.display_window;
+    const std::size_t depth = layout.depth == Depth::kUint8 ? 1 : layout.depth == Depth::kUint16 ? 2 : 4;
+    const std::size_t row = layout.order.channels.size() * static_cast<std::size_t>(window.width()) * depth;
+    const double frame = static_cast<double>(row) * window.height();
+    return {row * static_cast<std::size_t>(std::min(kPictureChunkRows, window.height())),
+            static_cast<std::size_t>(layout.format.frames_held * frame)};
 }
 
 std::string extension_of(const std::filesystem::path& file) {

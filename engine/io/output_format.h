@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/io/image_sink.h"
+#include "engine/io/sink_memory.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -31,6 +32,7 @@ struct OutputFormat {
     bool tiled = false;           // and in no other way
     std::vector<std::string_view> compressions = {};  // the default first; empty: no choice
     bool has_quality = false;                         // the first compression takes one, "jpeg:90", 1 to 100
+    double frames_held = 0;  // how many times over its writer holds the frame, in the file's depth; measured
 
     bool holds(std::string_view channel_set) const;
 };
@@ -51,6 +53,9 @@ struct PictureLayout {
 
 // Throws Failure (kGraph) where the format of the file's name can't hold what is asked, naming what it can.
 PictureLayout picture_layout(const std::filesystem::path& file, const SinkSpec& spec);
+
+// What writing `spec` needs.  Throws as picture_layout().
+SinkMemory picture_memory(const std::filesystem::path& file, const SinkSpec& spec);
 
 // Without its dot, in small letters.
 std::string extension_of(const std::filesystem::path& file);

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/io/versions.h"
 
-#include "engine/io/image_module.h"
+#include "engine/color/color.h"
+#include "engine/io/oiio/picture_tasks.h"
 
-#include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 #include <openexr.h>
 
@@ -23,16 +23,13 @@ std::string openexr_version() {
 std::string keyline_version() { return KEYLINE_VERSION; }
 
 std::vector<LibraryVersion> library_versions() {
-    std::vector<LibraryVersion> out{{"OpenEXR", openexr_version()},
-                                    {"Imath", KEYLINE_IMATH_VERSION},
-                                    {"OpenColorIO", OCIO_NAMESPACE::GetVersion()},
-                                    {"oneTBB", KEYLINE_TBB_VERSION},
-                                    {"Highway", KEYLINE_HIGHWAY_VERSION},
-                                    {"libdeflate", KEYLINE_LIBDEFLATE_VERSION},
-                                    {"fmt", KEYLINE_FMT_VERSION},
-                                    {"nlohmann_json", KEYLINE_JSON_VERSION}};
+    std::vector<LibraryVersion> out{
+        {"OpenEXR", openexr_version()},         {"Imath", KEYLINE_IMATH_VERSION},
+        {"OpenColorIO", opencolorio_version()}, {"oneTBB", KEYLINE_TBB_VERSION},
+        {"Highway", KEYLINE_HIGHWAY_VERSION},   {"libdeflate", KEYLINE_LIBDEFLATE_VERSION},
+        {"fmt", KEYLINE_FMT_VERSION},           {"nlohmann_json", KEYLINE_JSON_VERSION}};
     const std::string openimageio = KEYLINE_OPENIMAGEIO_VERSION;
-    if (!openimageio.empty() && std::filesystem::exists(module_folder() / "keyline_image_io.so"))
+    if (!openimageio.empty() && std::filesystem::exists(helper_folder() / oiio::kPictureHelper.name))
         out.push_back({"OpenImageIO", openimageio});
     return out;
 }

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
+
 #include <array>
 
 // Point operations on rows of colour; rows.h says what is common to all kernels.
 
-namespace keyline::simd {
+namespace KEYLINE_API keyline {
+namespace simd {
 
 struct RgbRows {
     const float *r, *g, *b;
@@ -34,4 +37,5 @@ struct Coverage {
 // With k = mix, or mask × mix: out = fg k + bg (1 − alpha k).
 void over_row(const float* fg, const Coverage& coverage, const float* bg, int n, float* out);
 
-}  // namespace keyline::simd
+}  // namespace simd
+}  // namespace keyline

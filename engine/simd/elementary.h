@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// exp, log, pow, sine and cosine that give the same bits on every machine.  The C library's do not: glibc
-// picks another body where the processor has fused multiply-adds.  These are made of + − × ÷ alone; tables
-// (Gaussian weights, tone curves) are built with them, and the kernels use the same body lane by lane.
+#include "engine/base/api.h"
 
-namespace keyline::elementary {
+// exp, log, pow, sine, cosine and probit that give the same bits on every machine.  The C library's do not:
+// glibc picks another body where the processor has fused multiply-adds.  These are made of + − × ÷ alone;
+// tables (Gaussian weights, tone curves) are built with them, and the kernels use the same body lane by lane.
+
+namespace KEYLINE_API keyline {
+namespace elementary {
 
 // e^x, to 1e-15 of its value (denormal results: to one step).  0 below about −745, +∞ above about 709.8;
 // NaN for NaN.
@@ -26,4 +29,8 @@ struct SinCos {
 // Of an angle in degrees, to 1e-15; exact where the angle is a multiple of 90.  NaN unless it is finite.
 SinCos sin_cos_degrees(double degrees);
 
-}  // namespace keyline::elementary
+// The x at which the normal distribution reaches p, to 1e-7 of it; for p from 1e-10 to 1 − 1e-10.
+double probit(double p);
+
+}  // namespace elementary
+}  // namespace keyline

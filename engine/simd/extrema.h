@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/image.h"
+#include "engine/base/api.h"
+#include "engine/base/image.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,8 @@
 // the result is 0.  −0 is below +0, so that the result does not depend on the order of comparisons.  `in`
 // covers out.rect grown by the shape, clipped to the data window.
 
-namespace keyline::simd {
+namespace KEYLINE_API keyline {
+namespace simd {
 
 enum class Extremum { kMaximum, kMinimum };
 
@@ -53,4 +55,5 @@ void extremum(const View& in, const MutView& out, HalfWidths shape, Extremum whi
     shape_extremum(in, out, shape, which, scratch.template take<int32_t>(shape_workspace(out.rect, shape)));
 }
 
-}  // namespace keyline::simd
+}  // namespace simd
+}  // namespace keyline

@@ -18,7 +18,9 @@ constexpr int padded(int n) { return (n + 31) / 16 * 16; }
 constexpr int whole_vectors(int words) { return (words + 7) / 8 * 8; }
 
 // How many windows of 1, 2, 4, … pixels are no longer than `length`.
-constexpr int window_levels(int length) { return std::bit_width(static_cast<unsigned>(length)); }
+constexpr int window_levels(int length) {
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(length)));
+}
 
 // rows + 1 rows as wide as the output, then two lines.
 struct BoxLayout {

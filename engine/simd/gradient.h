@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
 #include "engine/simd/rows.h"
 
 #include <span>
 
-namespace keyline::simd {
+namespace KEYLINE_API keyline {
+namespace simd {
 
 enum class GradientOperator {
     kCentral,  // [-1 0 1], not halved
@@ -35,4 +37,5 @@ struct GradientRow {
 void gradient_row(GradientOperator op, std::span<const Rows3> channels, int n, Margin margin,
                   const GradientRow& out);
 
-}  // namespace keyline::simd
+}  // namespace simd
+}  // namespace keyline

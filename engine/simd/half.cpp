@@ -12,7 +12,7 @@
 // arithmetic has one answer everywhere.
 
 HWY_BEFORE_NAMESPACE();
-namespace keyline::HWY_NAMESPACE {  // NOLINT(modernize-concat-nested-namespaces)
+namespace keyline::simd::HWY_NAMESPACE {  // NOLINT(modernize-concat-nested-namespaces)
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -134,11 +134,11 @@ std::size_t FloatToUint(const float* from, uint32_t* to, std::size_t n) {
     });
 }
 
-}  // namespace keyline::HWY_NAMESPACE
+}  // namespace keyline::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace keyline {
+namespace keyline::simd {
 
 HWY_EXPORT(HalfToFloat);
 HWY_EXPORT(FloatToHalf);
@@ -161,5 +161,5 @@ std::size_t float_to_uint(const float* from, uint32_t* to, std::size_t n) {
     return HWY_DYNAMIC_DISPATCH(FloatToUint)(from, to, n);
 }
 
-}  // namespace keyline
+}  // namespace keyline::simd
 #endif  // HWY_ONCE

@@ -8,7 +8,7 @@
 // Rows of samples from a file's types to float and back.  Every function takes `n` samples, any alignment,
 // and gives the same bits on every processor.  Source and destination must not overlap.
 
-namespace keyline {
+namespace keyline::simd {
 
 // Exact: denormals, infinities and the payloads of NaNs (quiet or signalling) are kept.
 void half_to_float(const uint16_t* from, float* to, std::size_t n);
@@ -24,4 +24,4 @@ std::size_t uint_to_float(const uint32_t* from, float* to, std::size_t n);
 // how many values were NaN or had to be clamped.
 std::size_t float_to_uint(const float* from, uint32_t* to, std::size_t n);
 
-}  // namespace keyline
+}  // namespace keyline::simd

@@ -9,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace keyline::HWY_NAMESPACE {  // NOLINT(modernize-concat-nested-namespaces)
+namespace keyline::simd::HWY_NAMESPACE {  // NOLINT(modernize-concat-nested-namespaces)
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -43,11 +43,11 @@ void UndoDifference(uint8_t* bytes, std::size_t n) {
         bytes[i] = static_cast<uint8_t>(bytes[i - 1] + bytes[i] + 128);
 }
 
-}  // namespace keyline::HWY_NAMESPACE
+}  // namespace keyline::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace keyline {
+namespace keyline::simd {
 
 HWY_EXPORT(UndoDifference);
 
@@ -69,7 +69,7 @@ void split_and_difference(const std::byte* from, std::byte* to, std::size_t pair
         odd[i] = static_cast<uint8_t>(in[2 * i + 1] - in[2 * i - 1] + 128);
 }
 
-void join(const std::byte* even, const std::byte* odd, std::byte* to, std::size_t pairs) {
+void join_bytes(const std::byte* even, const std::byte* odd, std::byte* to, std::size_t pairs) {
     const std::byte* HWY_RESTRICT a = even;
     const std::byte* HWY_RESTRICT b = odd;
     std::byte* HWY_RESTRICT out = to;
@@ -79,5 +79,5 @@ void join(const std::byte* even, const std::byte* odd, std::byte* to, std::size_
     }
 }
 
-}  // namespace keyline
+}  // namespace keyline::simd
 #endif  // HWY_ONCE

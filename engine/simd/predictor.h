@@ -8,7 +8,7 @@
 // odd places after them (a half's lower and upper bytes part), then each byte as its difference from the one
 // before, plus 128.  Sample bytes are even in number.
 
-namespace keyline {
+namespace keyline::simd {
 
 // 2·`pairs` sample bytes at `from` into what is packed, at `to`.
 void split_and_difference(const std::byte* from, std::byte* to, std::size_t pairs);
@@ -17,6 +17,6 @@ void split_and_difference(const std::byte* from, std::byte* to, std::size_t pair
 void undo_difference(std::byte* bytes, std::size_t n);
 
 // Undoes the split for a run of samples: `to` becomes even[0], odd[0], even[1], odd[1], …
-void join(const std::byte* even, const std::byte* odd, std::byte* to, std::size_t pairs);
+void join_bytes(const std::byte* even, const std::byte* odd, std::byte* to, std::size_t pairs);
 
-}  // namespace keyline
+}  // namespace keyline::simd

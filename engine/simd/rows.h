@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/image.h"
+#include "engine/base/api.h"
+#include "engine/base/image.h"
 
 #include <algorithm>
 
@@ -13,7 +14,8 @@
 // n, the pixel's place in the row, the instruction set or the thread (HOUSE: "Rules that make results
 // independent of the schedule").  NaN and infinities follow IEEE arithmetic unless the kernel says otherwise.
 
-namespace keyline::simd {
+namespace KEYLINE_API keyline {
+namespace simd {
 
 // Of floats in the widest vector that there is a body for.
 constexpr std::size_t kMostLanes = 16;
@@ -40,4 +42,5 @@ inline Rows3 rows_around(const View& in, int x0, int y) {
     return {in.at(x0, std::max(y - 1, in.rect.y0)), in.at(x0, y), in.at(x0, std::min(y + 1, in.rect.y1 - 1))};
 }
 
-}  // namespace keyline::simd
+}  // namespace simd
+}  // namespace keyline

@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
+
 #include <array>
 #include <span>
 
 // Shading from passes, on rows; rows.h says what is common to all kernels.  In double throughout: the edge of
 // a tone multiplies what was lost before it by a hundred.
 
-namespace keyline::simd {
+namespace KEYLINE_API keyline {
+namespace simd {
 
 struct XyzRows {
     const float *x, *y, *z;
@@ -91,4 +94,5 @@ struct PhongTones {
 void phong_row(const SurfaceRows& surface, std::span<const LightRows> lights, const double* normal_toward_eye,
                const PhongTones& tones, int n, const ShadedRows& out);
 
-}  // namespace keyline::simd
+}  // namespace simd
+}  // namespace keyline

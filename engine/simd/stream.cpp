@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simd/stream.h"
 
-#include "engine/aligned.h"
+#include "engine/base/aligned.h"
 #include "engine/simd/rows.h"
 
 #include <cstdint>

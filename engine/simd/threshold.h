@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
+
 #include <cstdint>
 
 // Rows of bits, 64 pixels a word: pixel i is bit i % 64 of word i / 64.
 
-namespace keyline::simd {
+namespace KEYLINE_API keyline {
+namespace simd {
 
 constexpr int words_for(int pixels) { return (pixels + 63) / 64; }
 
@@ -17,4 +20,5 @@ void threshold_row(const float* in, int n, float low, float high, uint64_t* weak
 // out[i] = 1 where the bit is set, else 0.
 void expand_row(const uint64_t* bits, int n, float* out);
 
-}  // namespace keyline::simd
+}  // namespace simd
+}  // namespace keyline

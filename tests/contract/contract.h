@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/node_type.h"
+#include "engine/node/node_type.h"
 
 #include <span>
 #include <string>
@@ -35,6 +35,8 @@ std::span<const Promise> promises();
 Complaints check_declaration(const NodeType& type);
 // Parameters written as JSON and read again are the same parameters.
 Complaints check_round_trip(const NodeType& type);
+// Equal parameters have one digest, different ones have two.
+Complaints check_digest(const NodeType& type);
 // An unknown key, a value of the wrong kind or out of range, and a missing one are refused, with the place.
 Complaints check_refusals(const NodeType& type);
 
@@ -48,6 +50,18 @@ Complaints check_special_values(const NodeType& type);
 Complaints check_windows(const NodeType& type);
 // What says that it changes nothing, changes nothing.
 Complaints check_identity(const NodeType& type);
+
+// contract_extent.cpp
+
+// Outside its data window a picture is 0, and that is all: the same picture with its whole data window and
+// with one cut to what is not 0 gives the same over the display window.
+Complaints check_extent(const NodeType& type);
+
+// contract_ends.cpp
+
+// With each parameter at either end of its range, a picture of a few pixels is refused, becomes large (which
+// is told by its size), or is computed in seconds, by the planner's estimate and in truth.
+Complaints check_ends(const NodeType& type);
 
 // contract_halo.cpp
 

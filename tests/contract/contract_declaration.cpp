@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/graph.h"
-#include "engine/graph_json.h"
-#include "engine/json_writer.h"
+#include "engine/graph/graph.h"
+#include "engine/json/json_reader.h"
+#include "engine/json/json_writer.h"
 #include "tests/contract/contract.h"
 #include "tests/support/draw.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace keyline::testing {
 
@@ -167,6 +168,30 @@ Complaints check_round_trip(const NodeType& type) {
                                           after ? text_of(*after) : "nothing"));
         }
     }
+    return out;
+}
+
+Complaints check_digest(const NodeType& type) {
+    Complaints out;
+    Draw draw(kSeed);
+    std::map<std::string, Digest> known;
+    for (int i = 0; i < kCases; ++i) {
+        const std::string given = draw_accepted(type, draw).text();
+        const Parsed parsed = parse(type, given);
+        if (!parsed.node) return {"no parameters drawn from its ranges are accepted"};
+        const std::string all = text_of(parsed.node->to_value());
+        const Digest digest = digest_of(type, *parsed.node);
+        for (const auto& [other, of_other] : known)
+            if ((other == all) != (of_other == digest))
+                out.push_back(fmt::format("{} and {} have {} digest", other, all,
+                                          other == all ? "more than one" : "one"));
+        known.emplace(all, digest);
+    }
+    NodeType next = type;
+    ++next.version;
+    const Parsed parsed = parse(type, draw_accepted(type, draw).text());
+    if (parsed.node && digest_of(next, *parsed.node) == digest_of(type, *parsed.node))
+        out.push_back("the next version has the same digest");
     return out;
 }
 

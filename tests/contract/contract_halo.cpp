@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/demand.h"
-#include "engine/resolve.h"
+#include "engine/plan/demand.h"
+#include "engine/plan/resolve.h"
 #include "tests/contract/contract.h"
 #include "tests/support/draw.h"
+#include "tests/support/interpret.h"
 
 #include <algorithm>
 #include <bit>
@@ -38,10 +39,14 @@ struct Framed {
     MutView view() { return {at(rect.x0, rect.y0), stride, rect, window}; }
 };
 
-// One operation of a node, fed with noise.
+// One operation of a node, fed with noise, and with the data of the frame that it stands in.
 class Bench {
 public:
-    Bench(const Op& op, Draw& draw) : op_(op), window_(op.outputs.front().window) {
+    Bench(const Op& op, const std::vector<std::shared_ptr<const Datum>>& data, Draw& draw)
+        : op_(op), window_(op.outputs.front().window) {
+        for (const Link& link : op.links)
+            data_.push_back(link.datum.op < 0 ? nullptr
+                                              : data[static_cast<std::size_t>(link.datum.op)].get());
         for (const Link& link : op.links)
             for (std::size_t k = 0; k < link.values.size(); ++k)
                 images_.push_back(
@@ -49,7 +54,7 @@ public:
     }
 
     Complaints compare_regions(Draw& draw) const {
-        if (op_.operation->reduction()) return compare_blocks();
+        if (op_.gather) return compare_blocks();
         std::vector<Framed> whole = computed(window_, 0);
         for (int i = 0; i < 8; ++i) {
             const Rect region = some_region(draw);
@@ -66,7 +71,7 @@ public:
 
     // Each output by itself, while the rows of the others lie on each other.
     Complaints compare_outputs() const {
-        if (op_.operation->reduction() || op_.outputs.size() < 2) return {};
+        if (!op_.operation || op_.outputs.size() < 2) return {};
         const std::vector<Framed> all = computed(window_, 0);
         for (std::size_t wanted = 0; wanted < all.size(); ++wanted) {
             std::vector<Framed> alone(all.size(), Framed(window_, window_, kUntouched));
@@ -84,17 +89,14 @@ private:
         return std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b) || (std::isnan(a) && std::isnan(b));
     }
 
-    // Whole-frame: the frame in blocks of several sizes.
+    // A gather: the frame in blocks of several sizes.
     Complaints compare_blocks() const {
-        std::vector<Framed> whole = reduced(window_.width() + window_.height(), 0);
+        const auto whole = gathered(window_.width() + window_.height(), 0);
         for (const int size : {1, 5, 16})
-            for (const float poison : kPoisons) {
-                const std::vector<Framed> parts = reduced(size, poison);
-                for (std::size_t o = 0; o < whole.size(); ++o)
-                    if (!std::ranges::equal(whole[o].memory, parts[o].memory, same_bits))
-                        return {fmt::format("in blocks of {}, with {} around each, the frame is another",
-                                            size, poison)};
-            }
+            for (const float poison : kPoisons)
+                if (!gathered(size, poison)->equals(*whole))
+                    return {fmt::format("in blocks of {}, with {} around each, the datum is another", size,
+                                        poison)};
         return {};
     }
 
@@ -115,16 +117,18 @@ private:
         std::vector<Framed> memory;
         std::vector<View> views;
         std::vector<Inputs::Range> slots;
-        Inputs inputs() const { return {views, slots}; }
+        std::vector<const Datum*> data;
+        Inputs inputs() const { return {views, slots, data}; }
     };
     template <class RectOf>
     Gathered gather(const RectOf& rect_of, float poison) const {
         Gathered g;
+        g.data = data_;
         for (std::size_t s = 0; s < op_.links.size(); ++s) {
             g.slots.push_back({g.memory.size(), op_.links[s].values.size()});
             for (std::size_t k = 0; k < op_.links[s].values.size(); ++k)
-                g.memory.push_back(
-                    framed(g.memory.size(), rect_of(static_cast<int>(s)), op_.links[s].window, poison));
+                g.memory.push_back(framed(g.memory.size(), rect_of(static_cast<int>(s)),
+                                          end_of_link(op_, static_cast<int>(s)), poison));
         }
         for (Framed& f : g.memory) g.views.push_back(f.view());
         return g;
@@ -146,25 +150,21 @@ private:
         op_.operation->compute(g.inputs(), views, scratch);
     }
 
-    std::vector<Framed> reduced(int size, float poison) const {
-        const Reduction& reduction = *op_.operation->reduction();
+    std::shared_ptr<const Datum> gathered(int size, float poison) const {
+        const Gather& gathering = *op_.gather;
         Scratch scratch;
-        const auto state = reduction.start(window_);
-        for (int round = 0; round < reduction.rounds(); ++round) {
+        const auto state = gathering.start(window_);
+        for (int round = 1;; ++round) {
             for (int y = window_.y0; y < window_.y1; y += size)
                 for (int x = window_.x0; x < window_.x1; x += size) {
                     const Rect block = intersect(window_, {x, y, x + size, y + size});
                     const Gathered g = gather([&](int) { return block; }, poison);
-                    reduction.fold(*state, *reduction.map(*state, g.inputs(), block, scratch));
+                    gathering.fold(*state, *gathering.map(*state, g.inputs(), block, scratch));
                     scratch.reset();
                 }
-            reduction.finish(*state);
+            if (round == gathering.rounds()) return gathering.finish(*state);
+            gathering.end_round(*state);
         }
-        std::vector<Framed> out(op_.outputs.size(), Framed(window_, window_, kUntouched));
-        std::vector<MutView> views;
-        for (Framed& f : out) views.push_back(f.view());
-        reduction.apply(*state, views, scratch);
-        return out;
     }
 
     // What of a computed region is not as in the whole, or lies beside it; "" where all is well.
@@ -183,7 +183,8 @@ private:
 
     const Op& op_;
     const Rect window_;
-    std::vector<Image> images_;  // by value of all links
+    std::vector<Image> images_;       // by value of all links
+    std::vector<const Datum*> data_;  // by link
 };
 
 // What check(bench, draw) says of the first operation that it complains of.
@@ -195,9 +196,10 @@ Complaints check_operations(const NodeType& type, const Check& check) {
         try {
             c = draw_case(type, draw);
             const ResolvedFrame frame = c.resolve(false);
+            const auto data = interpret_all(frame).data;
             for (const Op& op : frame.ops) {
-                if (!op.operation || op.outputs.front().window.empty()) continue;
-                const Complaints found = check(Bench(op, draw), draw);
+                if ((!op.operation && !op.gather) || op.outputs.front().window.empty()) continue;
+                const Complaints found = check(Bench(op, data, draw), draw);
                 if (!found.empty()) return {found.front() + "\n" + c.text()};
             }
         } catch (const std::exception& e) {

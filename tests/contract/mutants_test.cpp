@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/node_adaptor.h"
-#include "engine/registry.h"
+#include "engine/kit/numbers.h"
+#include "engine/node/node_adaptor.h"
+#include "engine/node/pixel_loop.h"
+#include "engine/node/registry.h"
 #include "tests/contract/contract.h"
 
 #include <algorithm>
@@ -38,14 +40,23 @@ struct Honest {
     using Params = OneInput;
     explicit Honest(const Params& p) : amount(static_cast<float>(p.amount)) {}
     bool identity() const { return amount == 0; }
-    Halo halo() const { return {1, 0}; }
+    Halo halo() const { return {amount == 0 ? 0 : 1, 0}; }
     void compute(const View& in, const MutView& out, Scratch&) const {
         fill(out, [&](int x, int y) {
             if (amount == 0) return *in.at(x, y);
-            return *in.at(x, y) + amount * (x > in.window.x0 ? *in.at(x - 1, y) : 0);
+            return with_one_nan(*in.at(x, y) + amount * (x > in.window.x0 ? *in.at(x - 1, y) : 0));
         });
     }
     const float amount;
+};
+
+struct TwoNans {
+    static constexpr Info info{"two_nans", "Takes 1 away, and leaves a NaN as it came."};
+    using Params = OneInput;
+    explicit TwoNans(const Params&) {}
+    void compute(const View& in, const MutView& out, Scratch&) const {
+        fill(out, [&](int x, int y) { return *in.at(x, y) - 1; });
+    }
 };
 
 struct HaloOneShort : Honest {
@@ -135,6 +146,16 @@ struct NeedsTwoPixels : Honest {
     }
 };
 
+struct EndsAtTheData {
+    static constexpr Info info{"ends_at_the_data", "Makes 1 of 0, inside the data window alone."};
+    using Params = OneInput;
+    explicit EndsAtTheData(const Params&) {}
+    static Rect window(const std::vector<Port>& ports) { return ports[0].stream.window; }
+    void compute(const View& in, const MutView& out, Scratch&) const {
+        fill(out, [&](int x, int y) { return 1 - *in.at(x, y); });
+    }
+};
+
 // Labels connected pixels block by block, and joins blocks where pixels meet side by side but not at corners.
 struct SeamWithoutDiagonals {
     static constexpr Info info{"seam_without_diagonals", "The size of each pixel's component."};
@@ -142,7 +163,6 @@ struct SeamWithoutDiagonals {
         Input in;
         static constexpr auto fields = declare(input(&Params::in, "in", "A matte.", matte()));
     };
-    static constexpr std::array outputs{"size"};
     explicit SeamWithoutDiagonals(const Params& p) : in(p.in) {}
 
     struct Pixel {
@@ -163,12 +183,17 @@ struct SeamWithoutDiagonals {
         Rect rect;
         std::vector<float> samples;
     };
-    static int rounds() { return 1; }
     static State start(const Rect& w) {
         return {w, std::vector<Pixel>(static_cast<std::size_t>(w.area())), 0};
     }
     static std::size_t state_bytes(const Rect& w) {
         return static_cast<std::size_t>(w.area()) * sizeof(Pixel);
+    }
+    static std::size_t partial_bytes(const Rect& b) {
+        return static_cast<std::size_t>(b.area()) * sizeof(float);
+    }
+    static std::size_t datum_bytes(const Rect& w) {
+        return static_cast<std::size_t>(w.area()) * sizeof(double);
     }
     Partial map(const State&, const Inputs& inputs, const Rect& block, Scratch&) const {
         Partial out{block, {}};
@@ -183,10 +208,13 @@ struct SeamWithoutDiagonals {
             for (int x = p.rect.x0; x < p.rect.x1; ++x) s.at(x, y) = {s.blocks, p.samples[i++] > 0.4F, 0};
         ++s.blocks;
     }
-    static void finish(State& s) {
+    static Numbers finish(State s) {
+        Numbers sizes;
         for (int y = s.window.y0; y < s.window.y1; ++y)
             for (int x = s.window.x0; x < s.window.x1; ++x)
                 if (s.at(x, y).set && s.at(x, y).size == 0) flood(s, x, y);
+        for (const Pixel& p : s.pixels) sizes.values.push_back(p.size);
+        return sizes;
     }
     static void flood(State& s, int x0, int y0) {
         std::vector<std::pair<int, int>> found{{x0, y0}};
@@ -202,9 +230,6 @@ struct SeamWithoutDiagonals {
             }
         for (const auto& [x, y] : found) s.at(x, y).size = static_cast<float>(found.size());
     }
-    static void compute(const State& s, Outputs out, Scratch&) {
-        fill(out[0], [&](int x, int y) { return s.at(x, y).size; });
-    }
     const Input in;
 };
 
@@ -212,15 +237,15 @@ struct SeamWithoutDiagonals {
 struct MeanOfTiles {
     static constexpr Info info{"mean_of_tiles", "The frame's mean."};
     using Params = SeamWithoutDiagonals::Params;
-    static constexpr std::array outputs{"mean"};
     explicit MeanOfTiles(const Params& p) : in(p.in) {}
     struct State {
         float sum = 0, count = 0;
     };
     using Partial = float;
-    static int rounds() { return 1; }
     static State start(const Rect& w) { return {0, static_cast<float>(w.area())}; }
     static std::size_t state_bytes(const Rect&) { return sizeof(State); }
+    static std::size_t partial_bytes(const Rect&) { return sizeof(Partial); }
+    static std::size_t datum_bytes(const Rect&) { return sizeof(double); }
     float map(const State&, const Inputs& inputs, const Rect& block, Scratch&) const {
         float sum = 0;
         for (int y = block.y0; y < block.y1; ++y)
@@ -228,11 +253,55 @@ struct MeanOfTiles {
         return sum;
     }
     static void fold(State& s, float partial) { s.sum += partial; }
-    static void finish(State&) {}
-    static void compute(const State& s, Outputs out, Scratch&) {
-        fill(out[0], [&](int, int) { return s.sum / s.count; });
-    }
+    static Numbers finish(State s) { return {{s.sum / s.count}}; }
     const Input in;
+};
+
+// A sum of whole numbers, which knows no order.
+struct CountsBright : MeanOfTiles {
+    static constexpr Info info{"counts_bright", "How many samples of the frame are above 0.4."};
+    using MeanOfTiles::MeanOfTiles;
+    using State = int64_t;
+    using Partial = int64_t;
+    static State start(const Rect&) { return 0; }
+    int64_t map(State, const Inputs& inputs, const Rect& block, Scratch&) const {
+        int64_t count = 0;
+        for (int y = block.y0; y < block.y1; ++y)
+            for (int i = 0; i < block.width(); ++i) count += inputs[in][0].row(y)[i] > 0.4F ? 1 : 0;
+        return count;
+    }
+    static void fold(State& s, Partial partial) { s += partial; }
+    static Numbers finish(State s) { return {{static_cast<double>(s)}}; }
+};
+
+// A number that is another in each order of the blocks: folding must not care which of two comes first.
+struct FoldsInOrder : MeanOfTiles {
+    static constexpr Info info{"folds_in_order", "What the last block begins with."};
+    using MeanOfTiles::MeanOfTiles;
+    float map(const State&, const Inputs& inputs, const Rect& block, Scratch&) const {
+        return *inputs[in][0].at(block.x0, block.y0);
+    }
+    static void fold(State& s, float partial) { s.sum = partial; }
+    static Numbers finish(State s) { return {{s.sum}}; }
+};
+
+// Draws what it is given twice over: once as its own input says, and once as the call before left it.
+struct ForgetsItsDatum {
+    static constexpr Info info{"forgets_its_datum", "A number of the frame, added up over the tiles."};
+    struct Params {
+        Input in, number;
+        static constexpr auto fields =
+            declare(input(&Params::in, "in", "A matte.", matte()),
+                    input(&Params::number, "number", "A number.", data<Numbers>()));
+    };
+    static constexpr std::array outputs{"Y"};
+    explicit ForgetsItsDatum(const Params& p) : in(p.in), number(p.number) {}
+    void compute(const Inputs& inputs, Outputs out, Scratch&) const {
+        sum = sum + static_cast<float>(inputs.datum<Numbers>(number).values[0]);
+        fill(out[0], [&](int x, int y) { return *inputs[in][0].at(x, y) + sum; });
+    }
+    const Input in, number;
+    mutable std::atomic<float> sum = 0;
 };
 
 struct Unexplained : Honest {
@@ -250,8 +319,7 @@ struct BadDefault {
     static Stream expand(Builder&) { return {}; }
 };
 
-// Takes what its declaration does not: the strictness of every node is the parser's, so the lie is told
-// there.
+// Reads back an output that nobody may have asked for.
 struct ReadsBack : Honest {
     static constexpr Info info{"reads_back", "Computes its second channel from what it wrote of the first."};
     static constexpr std::array outputs{"one", "other"};
@@ -266,10 +334,11 @@ struct ReadsBack : Honest {
     const Input in;
 };
 
-std::unique_ptr<const Node> parse_anything(const Value& object, ParamReader& reader) {
+std::unique_ptr<const Node> make_from_input(const std::vector<FieldInfo>& fields, const Value& object,
+                                            ParamReader& reader) {
     Value cleaned = object;
     std::erase_if(cleaned.members, [](const Member& m) { return m.key != "in"; });
-    return parse_node<Honest>(cleaned, reader);
+    return make_node<Honest>(fields, cleaned, reader);
 }
 
 template <class T>
@@ -313,18 +382,41 @@ TEST(Mutants, AFalseIdentityIsCaught) {
 
 TEST(Mutants, ANodeThatANanBreaksIsCaught) { EXPECT_CAUGHT(check_special_values, DislikesNan, "a NaN"); }
 
+TEST(Mutants, AResultThatEndsAtTheDataWindowIsCaught) {
+    EXPECT_CAUGHT(check_extent, EndsAtTheData, "of the whole");
+}
+
+TEST(Mutants, ASecondNanIsCaught) {
+    EXPECT_CAUGHT(check_special_values, TwoNans, "not the one that computed pixels have");
+}
+
 TEST(Mutants, ANodeThatANarrowImageBreaksIsCaught) {
     EXPECT_CAUGHT(check_windows, NeedsTwoPixels, "too narrow");
 }
 
 TEST(Mutants, ASeamWithoutDiagonalsIsCaught) {
-    EXPECT_CAUGHT(check_schedules, SeamWithoutDiagonals, "differs at");
+    EXPECT_CAUGHT(check_schedules, SeamWithoutDiagonals, "the datum is another");
     EXPECT_CAUGHT(check_halo, SeamWithoutDiagonals, "in blocks of");
 }
 
 TEST(Mutants, AMeanOfTilesIsCaught) {
-    EXPECT_CAUGHT(check_schedules, MeanOfTiles, "differs at");
+    EXPECT_CAUGHT(check_schedules, MeanOfTiles, "the datum is another");
     EXPECT_CAUGHT(check_halo, MeanOfTiles, "in blocks of");
+}
+
+TEST(Mutants, AFoldThatDependsOnTheOrderIsCaught) {
+    EXPECT_CAUGHT(check_schedules, FoldsInOrder, "the datum is another");
+    EXPECT_CAUGHT(check_halo, FoldsInOrder, "in blocks of");
+}
+
+TEST(Mutants, AStateBesideADatumIsCaught) {
+    registered<CountsBright>();  // gives what it takes
+    EXPECT_CAUGHT(check_schedules, ForgetsItsDatum, "differs at");
+}
+
+TEST(Mutants, AnHonestGatherPassesAll) {
+    for (const Promise& promise : promises())
+        EXPECT_THAT(promise.check(registered<CountsBright>()), IsEmpty()) << promise.name;
 }
 
 TEST(Mutants, AnOutputThatNeedsAnotherIsCaught) {
@@ -337,11 +429,9 @@ TEST(Mutants, ADefaultOutOfRangeIsCaught) {
     EXPECT_CAUGHT(check_declaration, BadDefault, "the default of 'amount'");
 }
 
-TEST(Mutants, AParserThatTakesAnythingIsCaught) {
+TEST(Mutants, ANodeThatForgetsItsParametersIsCaught) {
     NodeType careless = registered<Honest>();
-    careless.parse = &parse_anything;
-    EXPECT_THAT(check_refusals(careless), Contains(HasSubstr("takes an unknown key")));
-    EXPECT_THAT(check_refusals(careless), Contains(HasSubstr("takes a value above the range")));
+    careless.make = &make_from_input;
     EXPECT_THAT(check_round_trip(careless), Not(IsEmpty()));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/registry.h"
+#include "engine/node/registry.h"
 #include "tests/contract/contract.h"
 #include "tests/support/draw.h"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/channels.h"
+#include "engine/base/channels.h"
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -146,10 +146,11 @@ TEST(Colour, IsRgbAndPerhapsA) {
     EXPECT_EQ(colour_fault(kRender),
               "error: there is no colour (R G B) outside of the layer 'ViewLayer.Combined'; take one, as in "
               "':ViewLayer.Combined'");
-    EXPECT_EQ(colour_fault("a.R a.G a.B b.R b.G b.B c.r c.g c.b R G"),
-              "error: there is no colour (R G B) outside of the layers 'a' and 'b'; take one, as in ':a'");
-    EXPECT_EQ(colour_fault("r g b"),
-              "error: there is no colour (R G B); there are the channels 'r', 'g' and 'b'");
+    EXPECT_EQ(
+        colour_fault("a.R a.G a.B b.R b.G b.B c.r c.g c.b R G"),
+        "error: there is no colour (R G B) outside of the layers 'a', 'b' and 'c'; take one, as in ':a'");
+    EXPECT_EQ(colour_fault("u v w"),
+              "error: there is no colour (R G B); there are the channels 'u', 'v' and 'w'");
 }
 
 TEST(Matte, IsTheOnlyChannelOrA) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/components.h"
+#include "engine/kit/components.h"
 
 #include <gtest/gtest.h>
 #include <random>
@@ -66,8 +66,7 @@ BitRows merged(const Bitmaps& in, int width, int height) {
             merger.add(find_components(cut(in.pixels, block), cut(in.seeds, block), scratch));
             scratch.reset();
         }
-    merger.finish();
-    return merger.kept();
+    return merger.finish();
 }
 
 void expect_equal(const BitRows& actual, const BitRows& expected) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/plan.h"
-#include "engine/registry.h"
-#include "engine/resolve.h"
+#include "engine/node/registry.h"
+#include "engine/plan/planner.h"
+#include "engine/plan/resolve.h"
 #include "tests/support/draw.h"
 #include "tests/support/interpret.h"
 #include "tests/support/targets.h"
@@ -36,11 +36,13 @@ Image layered_image(Draw& draw) {
 // Keyline's own: other tests of this program register nodes that misbehave.
 std::vector<const NodeType*> computing_types() {
     std::vector<const NodeType*> out;
-    for (const NodeType& built_in : built_in_nodes()) {
-        const NodeType* type = registry().find(built_in.name);
-        if (!has_files(*type) && type->kind != NodeKind::kSource && type->kind != NodeKind::kSink)
-            out.push_back(type);
-    }
+    for (const Room& room : built_in_nodes())
+        for (const NodeType& built_in : room.types) {
+            const NodeType* type = registry().find(built_in.name);
+            if (!has_files(*type) && type->gives.empty() && type->kind != NodeKind::kSource &&
+                type->kind != NodeKind::kSink)
+                out.push_back(type);
+        }
     return out;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/execute.h"
+#include "engine/run/execute.h"
 
+#include "engine/plan/planner.h"
 #include "tests/engine/test_nodes.h"
 #include "tests/support/run.h"
 
@@ -48,24 +49,30 @@ struct Broken {
     const Fault fault;
 };
 
-// The same of a whole-frame node.
+// The same of a gather.
 struct BrokenMap {
     static constexpr Info info{"broken_map", "Throws while it looks."};
     struct Params {
         Input in;
         static constexpr auto fields = declare(input(&Params::in, "in", "The image.", matte()));
     };
-    static constexpr std::array outputs{"Y"};
-    explicit BrokenMap(const Params&) {}
-    using State = int;
-    using Partial = int;
-    static int rounds() { return 1; }
-    static State start(const Rect&) { return 0; }
-    static std::size_t state_bytes(const Rect&) { return 0; }
-    static Partial map(const State&, const Inputs&, const Rect&, Scratch&) { throw_fault(Fault::kForeign); }
-    static void fold(State&, Partial) {}
-    static void finish(State&) {}
-    static void compute(const State&, Outputs, Scratch&) {}
+    explicit BrokenMap(const Params& p) : in(p.in) {}
+    Stream expand(Builder& builder) const {
+        const Stream stream = builder.input(in);
+        return add_operation(builder, Draw{}, {stream, add_operation(builder, Throw{}, {stream})});
+    }
+
+    struct Throw : SumOfAll {
+        static Partial map(const State&, const Inputs&, const Rect&, Scratch&) {
+            throw_fault(Fault::kForeign);
+        }
+    };
+    struct Draw {
+        using Params = CountAbove::Params;
+        static constexpr std::array outputs{"Y"};
+        static void compute(const Inputs&, Outputs, Scratch&) {}
+    };
+    const Input in;
 };
 
 // Asks for an end after its first tiles, and counts all that it was called for.
@@ -181,7 +188,7 @@ TEST(Execute, AForeignExceptionIsAnInternalErrorThatNamesTheTile) {
     const Error e = error_of_run({{"type", "broken"}, {"in", "in"}, {"fault", "foreign"}}, 2);
     EXPECT_EQ(e.kind, ErrorKind::kInternal);
     EXPECT_EQ(e.node, "node 'n' (broken), frame 7");
-    EXPECT_THAT(e.what, HasSubstr("table missing in tile [16,16 – 32,32)"));
+    EXPECT_THAT(e.what, HasSubstr("table missing in 16 × 16 at (16, 16)"));
 }
 
 TEST(Execute, MemoryThatRunsOutIsTold) {
@@ -191,11 +198,11 @@ TEST(Execute, MemoryThatRunsOutIsTold) {
     EXPECT_THAT(e.what, HasSubstr("out of memory"));
 }
 
-TEST(Execute, SoIsWhatAWholeFrameNodeThrows) {
+TEST(Execute, SoIsWhatAGatherThrows) {
     const Error e = error_of_run({{"type", "broken_map"}, {"in", "in"}}, 2);
     EXPECT_EQ(e.kind, ErrorKind::kInternal);
     EXPECT_EQ(e.node, "node 'n' (broken_map), frame 7");
-    EXPECT_THAT(e.what, StartsWith("table missing in tile "));
+    EXPECT_THAT(e.what, StartsWith("table missing in 16 × 16 at ("));
 }
 
 TEST(Execute, AnExecutorRunsAFrameAfterOneThatFailed) {
@@ -227,6 +234,7 @@ TEST(Execute, CancelledBeforeItBeginsItComputesNothing) {
     Plan plan = make_plan(resolve_graph({{"n", {{"type", "canceller"}, {"in", "in"}}}}, {"n"},
                                         {{"in", {Image({0, 0, 20, 20}, {"Y"})}}}),
                           {2, 10, 0});
+    Canceller::tiles() = 0;  // it was asked what it makes of nothing, while it was resolved
     EXPECT_THROW(Executor(2, 0).run(std::make_unique<FrameRun>(std::move(plan)), true), Failure);
     EXPECT_EQ(Canceller::tiles(), 0);
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/file_name.h"
+#include "engine/params/file_name.h"
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 
 #include <climits>
 #include <fstream>
@@ -34,7 +34,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"a.%d.exr", 7, "a.7.exr"}, Case{"a.%010d.exr", 7, "a.0000000007.exr"},
                     Case{"##/x_%03d/a.#.exr", 5, "05/x_005/a.5.exr"},
                     Case{"100%%/a%%04d.##", 5, "100%/a%04d.05"}, Case{"plain.exr", 5, "plain.exr"},
-                    Case{"#", INT_MIN, "-2147483648"}, Case{"##%02d", 3, "0303"}));
+                    Case{"take#1/a.#.exr", 5, "take#1/a.5.exr"}, Case{"#/a.exr", 5, "#/a.exr"},
+                    Case{"take##/a.exr", 5, "take05/a.exr"}, Case{"take%d/a.exr", 5, "take5/a.exr"},
+                    Case{"a\\#.#.exr", 5, "a#.5.exr"}, Case{"\\#\\#/a.exr", 5, "##/a.exr"},
+                    Case{"a\\##.exr", 5, "a#5.exr"}, Case{"\\$F4/\\@\\@\\%d\\~", 5, "$F4/@@%d~"},
+                    Case{"./~/a~.exr", 5, "./~/a~.exr"}, Case{"a@2x.exr", 5, "a@2x.exr"},
+                    Case{"5$/$5.exr", 5, "5$/$5.exr"}, Case{"#", INT_MIN, "-2147483648"},
+                    Case{"##%02d", 3, "0303"}));
 
 TEST(FileName, KnowsWhetherItHoldsAFrame) {
     EXPECT_TRUE(FileName("a.####.exr").has_frame());
@@ -48,22 +54,47 @@ TEST(FileName, IsRelativeToItsBase) {
     EXPECT_EQ(FileName("a.exr", "graphs").at(3), "graphs/a.exr");
 }
 
-TEST(FileName, TellsWhatIsWrong) {
-    EXPECT_EQ(FileName::fault("a.####.exr"), std::nullopt);
-    EXPECT_EQ(FileName::fault(""), "a file name is empty");
-    EXPECT_EQ(FileName::fault("out/"), "'out/' names a folder, not a file");
-    EXPECT_EQ(FileName::fault(std::string_view("a\0b", 3)), "the file name 'a\\x00b' holds a NUL");
-    for (const std::string text :
-         {"%", "a%s", "%4d", "%0d", "%00d", "%04", "%04x", "%-4d", "%99999999999999999999d", "%ü"})
-        EXPECT_EQ(FileName::fault(text), "a '%' in the file name '" + text +
-                                             "' starts neither %d nor %04d; a percent sign is written %%");
-    EXPECT_EQ(FileName::fault("%021d"), "the file name '%021d' pads the frame to 21 digits; the most is 20");
+std::string fault(std::string_view text) {
     try {
-        const FileName name("a%s");
-        FAIL();
+        const FileName name(text);
     } catch (const Failure& f) {
         EXPECT_EQ(f.error().kind, ErrorKind::kGraph);
-        EXPECT_EQ(f.error().what, FileName::fault("a%s"));
+        return f.what();
+    }
+    return "no fault";
+}
+
+TEST(FileName, TellsWhatIsWrong) {
+    EXPECT_EQ(fault("a.####.exr"), "no fault");
+    EXPECT_EQ(fault(""), "error: a file name is empty");
+    EXPECT_EQ(fault("out/"), "error: 'out/' names a folder, not a file");
+    EXPECT_EQ(fault(std::string_view("a\0b", 3)), "error: the file name 'a\\x00b' holds a NUL");
+    for (const std::string text :
+         {"%", "a%s", "%4d", "%0d", "%00d", "%04", "%04x", "%-4d", "%99999999999999999999d", "%ü"})
+        EXPECT_EQ(fault(text), "error: a '%' in the file name '" + text +
+                                   "' starts neither %d nor %04d; a percent sign is written %%");
+    EXPECT_EQ(fault("%021d"), "error: the file name '%021d' pads the frame to 21 digits; the most is 20");
+}
+
+// What is written so elsewhere, and how it is written here.
+TEST(FileName, TellsWhatOtherProgramsAndSystemsWrite) {
+    for (const auto& [text, way] : std::vector<std::pair<std::string, std::string>>{
+             {"~/a.exr", "write ${env:HOME}"},
+             {"~show/a.exr", "write ${env:HOME}"},
+             {"$SHOW/a.exr", "written ${env:SHOW}, one of the graph ${SHOW}, a '$' itself \\$"},
+             {"a.$F4.exr", "holds $F4; the frame is written ####"},
+             {"a.$F.exr", "the frame is written ####"},
+             {"$FX/a.exr", "written ${env:FX}"},
+             {"a.@@@@.exr", "the frame is written ####"},
+             {"a.%V.exr", "holds %V for a view"},
+             {"a_%v.exr", "holds %v for a view"},
+             {"D:\\a\\b.exr", "one of Windows"},
+             {"D:/a/b.exr", "one of Windows"},
+             {"\\\\server\\a.exr", "one of Windows"},
+             {"a\\b.exr", "folders are parted by '/'"},
+             {"a\\", "folders are parted by '/'"}}) {
+        EXPECT_NE(fault(text).find(way), std::string::npos) << fault(text);
+        EXPECT_NE(fault(text).find("'" + text + "'"), std::string::npos) << fault(text);
     }
 }
 

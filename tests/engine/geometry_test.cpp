@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/geometry.h"
+#include "engine/base/geometry.h"
 
 #include <gtest/gtest.h>
 

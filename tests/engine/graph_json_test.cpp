@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/graph_json.h"
+#include "engine/json/json_reader.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/noise.h"
+#include "engine/kit/noise.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/rank.h"
+#include "engine/kit/rank.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,11 +29,20 @@ RankSearch searched(const std::vector<float>& samples, std::array<double, 2> per
     return search;
 }
 
-float by_sorting(std::vector<float> samples, double percentile) {
+// A percentile as a fraction of whole numbers, as it was written: 12.5 is 125 / 10.
+struct Fraction {
+    int64_t over, under;
+    double value() const { return static_cast<double>(over) / static_cast<double>(under); }
+};
+
+// The first of the sorted samples of which, with those before it, there are at least p of a hundred.
+float by_sorting(std::vector<float> samples, const Fraction& p) {
     std::erase_if(samples, [](float s) { return s == 0 || std::isnan(s); });
     std::ranges::sort(samples);
-    const double rank = std::ceil(percentile / 100 * static_cast<double>(samples.size()));
-    return samples[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+    const auto n = static_cast<int64_t>(samples.size());
+    int64_t rank = 1;
+    while (rank * 100 * p.under < p.over * n) ++rank;
+    return samples[static_cast<std::size_t>(rank) - 1];
 }
 
 TEST(RankSearch, FindsWhatSortingFinds) {
@@ -47,11 +56,41 @@ TEST(RankSearch, FindsWhatSortingFinds) {
     samples.push_back(std::numeric_limits<float>::infinity());
     samples.push_back(-std::numeric_limits<float>::infinity());
     samples.push_back(std::numeric_limits<float>::denorm_min());
-    for (const auto& [low, high] : {std::pair{0.0, 100.0}, {50.0, 50.0}, {12.5, 99.9}, {0.01, 33.333}}) {
-        const RankSearch search = searched(samples, {low, high});
-        EXPECT_EQ(search.value(0), by_sorting(samples, low)) << low;
-        EXPECT_EQ(search.value(1), by_sorting(samples, high)) << high;
+    const std::vector<std::pair<Fraction, Fraction>> cases{
+        {{0, 1}, {100, 1}}, {{50, 1}, {50, 1}}, {{125, 10}, {999, 10}}, {{1, 100}, {33333, 1000}}};
+    for (const auto& [low, high] : cases) {
+        const RankSearch search = searched(samples, {low.value(), high.value()});
+        EXPECT_EQ(search.value(0), by_sorting(samples, low)) << low.value();
+        EXPECT_EQ(search.value(1), by_sorting(samples, high)) << high.value();
     }
+}
+
+// In doubles 7 / 100 · 100 is a little more than 7.
+TEST(RankSearch, CountsPercentilesExactly) {
+    std::vector<float> samples;
+    for (int n = 1; n <= 100; ++n) samples.push_back(static_cast<float>(n));
+    for (int64_t p = 0; p <= 50; ++p) {
+        const Fraction low{p, 1}, high{100 - p, 1};
+        const RankSearch search = searched(samples, {low.value(), high.value()});
+        EXPECT_EQ(search.value(0), by_sorting(samples, low)) << low.value();
+        EXPECT_EQ(search.value(1), by_sorting(samples, high)) << high.value();
+    }
+    for (int n = 101; n <= 1000; ++n) samples.push_back(static_cast<float>(n));
+    for (const int64_t tenths : {1, 3, 7, 29, 333, 569, 999})
+        EXPECT_EQ(searched(samples, {static_cast<double>(tenths) / 10, 100}).value(0),
+                  by_sorting(samples, {tenths, 10}))
+            << tenths;
+}
+
+// A block that is large or small by itself.
+TEST(RankSearch, CountsTakeMemoryAsTheirBlockHasSamples) {
+    EXPECT_LE(RankSearch::bytes_of_counts({0, 0, 256, 64}), 256 * 64 * sizeof(float));
+    EXPECT_LE(RankSearch::bytes_of_counts({0, 0, 4096, 4096}), std::size_t{512} << 10);
+    std::mt19937 random(2);
+    std::vector<float> samples;
+    for (int i = 0; i < 400'000; ++i) samples.push_back(static_cast<float>(random() % 5000));
+    EXPECT_EQ(searched(samples, {50, 99}).value(0), by_sorting(samples, {50, 1}))
+        << "as many as have a table";
 }
 
 TEST(RankSearch, CountsEqualSamplesOneByOne) {

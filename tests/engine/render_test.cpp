@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/render.h"
-
+#include "engine/run/one_tile.h"
 #include "tests/engine/test_nodes.h"
 #include "tests/io/exr_files.h"
 #include "tests/support/render_files.h"
@@ -10,6 +9,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <iterator>
+#include <stdexcept>
 
 namespace keyline::testing {
 namespace {
@@ -80,7 +80,7 @@ TEST_F(RenderFrames, AFrameThatFailsLeavesNothingAndTheOthersStay) {
     options.threads = 2;
     options.keep_going = true;
     const Rendered result = render_files(nodes(), options);
-    EXPECT_EQ(result.status, 3);
+    EXPECT_EQ(result.status, 75) << "it may be that it is still being copied";
     EXPECT_FALSE(result.errors.empty());
     EXPECT_NE(bytes(out(1)), "");
     EXPECT_EQ(bytes(out(3)), "");
@@ -94,6 +94,47 @@ TEST_F(RenderFrames, WarningsOfAnotherFrameNameIt) {
     EXPECT_THAT(render_files(nodes(), 2).warnings,
                 ElementsAre(AllOf(::testing::HasSubstr("node 'in' (read), frame 1"),
                                   ::testing::HasSubstr("mended"))));
+}
+
+// Breaks its promise on the pixel 40,30.
+struct Fragile {
+    static constexpr Info info{"fragile", "Throws what nobody expects."};
+    struct Params {
+        Input in;
+        static constexpr auto fields = declare(input(&Params::in, "in", "The image."));
+    };
+    explicit Fragile(const Params&) {}
+    static Halo halo() { return {2, 2}; }
+    void compute(const View&, const MutView& out, Scratch&) const {
+        if (out.rect.contains(40, 30)) throw std::runtime_error("table missing");
+    }
+};
+
+TEST_F(RenderFrames, AnInternalErrorSaysHowToSeeItAgain) {
+    register_test_nodes<Fragile>();
+    Json all = nodes();
+    all.set("slope", {{"type", "gradient"}, {"in", "broken"}});
+    all.set("broken", {{"type", "fragile"}, {"in", "soft"}});
+    RenderOptions options;
+    options.frames = {3};
+    options.threads = 2;
+    options.tile = 16;
+    options.command = "keyline render toon.json --set a.b=1";
+    const std::vector<std::string> errors = render_files(all, options).errors;
+    ASSERT_THAT(errors, ::testing::SizeIs(1));
+    // The tile of 16 × 16 with what the gradient looks at around it.
+    EXPECT_EQ(
+        errors[0],
+        "error: internal: node 'broken' (fragile), frame 3: table missing in 18 × 18 at (31, 15); 'keyline "
+        "render toon.json --set a.b=1 --only-tile broken@31,15,18,18 --frames=3' runs this alone; please "
+        "report it with that");
+    Diagnostics diagnostics;
+    const Json json{{"keyline", 1}, {"nodes", all}};
+    const auto graph = Graph::parse(json.text(), "test.json", ".", {}, diagnostics);
+    EXPECT_THROW(render_one_tile(*graph, {"broken", 3, {31, 15, 49, 33}}, options, diagnostics), Failure);
+    EXPECT_THAT(render_one_tile(*graph, {"broken", 3, {0, 0, 16, 16}}, options, diagnostics),
+                ::testing::SizeIs(1));
+    EXPECT_TRUE(diagnostics.ok());
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/execute.h"
-#include "engine/graph.h"
-#include "engine/node_adaptor.h"
-#include "engine/registry.h"
+#include "engine/graph/graph.h"
+#include "engine/node/node_adaptor.h"
+#include "engine/node/registry.h"
+#include "engine/plan/planner.h"
+#include "engine/run/execute.h"
 #include "tests/support/run.h"
 
 // Pictures that lie in memory are read where they are, and made where they are wanted.
@@ -54,7 +55,6 @@ public:
     Rect region() const override { return kWindow; }
     int chunk_height() const override { return 16; }
     const std::vector<ChannelInfo>& channels() const override { return channels_; }
-    std::size_t chunk_memory() const override { return 0; }
     Plane resident(std::size_t) const override { return made().plane(); }
     EncodedChunk encode(int index, std::span<const Plane> planes) const override {
         EXPECT_EQ(planes[0].data, made().plane().at(kWindow.x0, kWindow.y0 + 16 * index));

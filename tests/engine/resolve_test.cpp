@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/resolve.h"
+#include "engine/plan/resolve.h"
 
 #include "tests/engine/test_nodes.h"
 #include "tests/support/interpret.h"
 #include "tests/support/run.h"
 
+#include <functional>
 #include <gmock/gmock.h>
+#include <pthread.h>
 
 namespace keyline::testing {
 namespace {
@@ -26,6 +28,21 @@ Image passes() {
 }
 
 const Stream& result(const ResolvedFrame& frame) { return frame.sinks.front().request.stream; }
+
+// Half a megabyte, as some systems give a thread.
+void on_a_small_stack(const std::function<void()>& run) {
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, std::size_t{1} << 19);
+    pthread_t thread = 0;
+    const auto start = [](void* f) -> void* {
+        (*static_cast<const std::function<void()>*>(f))();
+        return nullptr;
+    };
+    ASSERT_EQ(pthread_create(&thread, &attributes, start, const_cast<std::function<void()>*>(&run)), 0);
+    pthread_join(thread, nullptr);
+    pthread_attr_destroy(&attributes);
+}
 
 std::string error_in(const Json& nodes, const std::string& id) {
     try {
@@ -87,7 +104,7 @@ TEST(Resolve, WhatChangesNothingIsNotThere) {
 TEST(Resolve, ANodeMayAskForAnotherFrameOfItsInput) {
     register_test_nodes<Change>();
     std::vector<Image> frames;
-    for (int f = 0; f < 4; ++f) frames.push_back(noise({f, 0, 20 + f, 15}, {"Y"}, static_cast<unsigned>(f)));
+    for (int f = 0; f < 4; ++f) frames.push_back(noise({3, 0, 20, 15}, {"Y"}, static_cast<unsigned>(f)));
     const Json nodes{{"wide", {{"type", "dilate"}, {"in", "in"}}},
                      {"change", {{"type", "change"}, {"in", "wide"}, {"since", 2}}}};
     const Image now = run("dilate", {}, frames[3]), then = run("dilate", {}, frames[1]);
@@ -114,6 +131,24 @@ TEST(Resolve, AnErrorInAnotherFrameIsToldOnce) {
     const Json nodes{{"y", {{"type", "ycolor"}, {"in", "in:Normal"}}},
                      {"a", {{"type", "change"}, {"in", "y"}}}};
     EXPECT_EQ(std::ranges::count(error_in(nodes, "a"), '\n'), 1);
+}
+
+// Every level of a recursion would take about a kilobyte of the stack.
+TEST(Resolve, AChainThroughAnotherFrameMayBeLong) {
+    register_test_nodes<Change, Crop>();
+    Json nodes;
+    const int length = 3000;
+    std::string last = "in";
+    for (int i = 0; i < length; ++i) {
+        const std::string name = "n" + std::to_string(i);
+        nodes.set(name, {{"type", "cut_out"}, {"in", last}, {"window", {0, 0, 4, 4}}});
+        last = name;
+    }
+    nodes.set("change", {{"type", "change"}, {"in", last}});
+    const std::vector<Image> frames(3, noise({0, 0, 4, 4}, {"Y"}, 1));
+    std::size_t ops = 0;
+    on_a_small_stack([&] { ops = resolve_graph(nodes, {"change"}, {{"in", frames}}, 2).ops.size(); });
+    EXPECT_EQ(ops, 3U) << "two frames of the source, and the difference";
 }
 
 TEST(Resolve, ANodeThatMovesPixelsGetsThoseItDemands) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/node.h"
+#include "engine/node/node.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

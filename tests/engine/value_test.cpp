@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/value.h"
+#include "engine/json/value.h"
 
-#include "engine/graph_json.h"
+#include "engine/json/json_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/variables.h"
+#include "engine/graph/variables.h"
 
-#include "engine/graph_json.h"
+#include "engine/json/json_reader.h"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ std::vector<std::string> texts(const Diagnostics& diagnostics) {
 Variables variables(std::string_view json, const Overrides& options = {}) {
     const Value declared = parse_json(json, "g.json");
     Diagnostics diagnostics;
-    Variables out(&declared, options, diagnostics);
+    Variables out({&declared, {}, options}, diagnostics);
     EXPECT_EQ(texts(diagnostics), std::vector<std::string>{});
     return out;
 }
@@ -37,7 +37,7 @@ Variables variables(std::string_view json, const Overrides& options = {}) {
 std::vector<std::string> faults(std::string_view json, const Overrides& options = {}) {
     const Value declared = parse_json(json, "g.json");
     Diagnostics diagnostics;
-    const Variables made(&declared, options, diagnostics);
+    const Variables made({&declared, {}, options}, diagnostics);
     return texts(diagnostics);
 }
 
@@ -127,6 +127,9 @@ TEST(Variables, FaultsInStringsAreTold) {
     EXPECT_EQ(
         fault(v, R"("${shot}")"),
         "g.json:1:1: error: unknown variable 'shot'; the graph declares 'list', 'none', 'o' and 'sigma'");
+    EXPECT_EQ(fault(v, R"("${KEYLINE_NOWHERE}")"),
+              "g.json:1:1: error: unknown variable 'KEYLINE_NOWHERE'; the environment's is written as "
+              "'${env:KEYLINE_NOWHERE}'");
     EXPECT_EQ(fault(variables("{}"), R"("${shot}")"),
               "g.json:1:1: error: unknown variable 'shot'; the graph declares no variables");
     EXPECT_EQ(fault(v, R"("a${sigma")"),
@@ -155,8 +158,8 @@ TEST(Variables, AFaultSparesTheOtherStrings) {
 TEST(Variables, FaultsInDeclarationsAreToldOnce) {
     EXPECT_EQ(faults("[1]"), Texts{"g.json:1:1: error: 'variables' must be an object, not an array"});
     EXPECT_EQ(faults(R"({"a b": 1})"),
-              Texts{"g.json:1:2: error: a variable can't be named 'a b': a letter or '_', then "
-                    "letters, digits, '_' and '-'"});
+              Texts{"g.json:1:2: error: a variable can't be named 'a b': a name is a letter or _, then "
+                    "letters, digits, _ and -"});
     EXPECT_EQ(faults(R"({"frame": 1})"),
               Texts{"g.json:1:2: error: a variable can't be named 'frame', which is the frame's number"});
     EXPECT_EQ(faults(R"({"abc": "${abd}", "b": "x${abc}"})"),
@@ -166,7 +169,7 @@ TEST(Variables, FaultsInDeclarationsAreToldOnce) {
 TEST(Variables, WhatUsesAFaultyOneIsKnown) {
     const Value declared = parse_json(R"({"a": "${zzz}", "b": "x${a}", "c": 1})", "g.json");
     Diagnostics diagnostics;
-    const Variables v(&declared, {}, diagnostics);
+    const Variables v({&declared}, diagnostics);
     EXPECT_EQ(diagnostics.errors().size(), 1U);
     EXPECT_TRUE(v.uses_faulty(parse_json(R"(["${b}"])", "g.json")));
     EXPECT_FALSE(v.uses_faulty(parse_json(R"(["${c}", "${unknown}"])", "g.json")));
@@ -215,7 +218,7 @@ TEST(Variables, UndeclaredOptionsAreFaults) {
     EXPECT_EQ(faults(R"({"shot": 1})", overrides({{"x", "2"}})),
               Texts{"--var x=2: error: unknown variable 'x'; the graph declares 'shot'"});
     Diagnostics diagnostics;
-    const Variables v(nullptr, overrides({{"x", "2"}}), diagnostics);
+    const Variables v({nullptr, {}, overrides({{"x", "2"}})}, diagnostics);
     EXPECT_EQ(texts(diagnostics),
               Texts{"--var x=2: error: unknown variable 'x'; the graph declares no variables"});
 }
@@ -232,6 +235,53 @@ TEST(Variables, PlacesAreTheUseOrTheOption) {
     EXPECT_EQ(out.items[0].items[1].members[0].value.place.text(), "--var n=5");
     EXPECT_EQ(out.items[1].place.text(), "g.json:3:1");
     EXPECT_EQ(out.items[2].place.text(), "g.json:4:1");
+}
+
+TEST(Variables, FilesStandOverTheGraphAndOptionsOverFiles) {
+    const Value declared = parse_json(R"({"a": 1, "b": 1, "c": 1, "s": "x"})", "g.json");
+    const std::vector<Value> files{parse_json(R"({"b": 2, "c": 2, "new": "${c}", "s": "007"})", "show.json"),
+                                   parse_json(R"({"c": 3})", "shot.json")};
+    Diagnostics diagnostics;
+    const Variables v({&declared, files, overrides({{"s", "8"}})}, diagnostics);
+    EXPECT_EQ(texts(diagnostics), Texts{});
+    EXPECT_EQ(replaced(v, R"(["${a}", "${b}", "${c}", "${new}", "${s}"])"), R"([1,2,3,3,"8"])");
+    Texts given;
+    for (const auto& [name, value] : v.given())
+        given.push_back(name + " " + value.shown() + " " + value.place.text());
+    EXPECT_EQ(given, (Texts{"a 1 g.json:1:7", "b 2 show.json:1:7", "c 3 shot.json:1:7",
+                            "new \"${c}\" show.json:1:25", "s \"8\" --var s=8"}));
+}
+
+TEST(Variables, HaveTheValueOfAChoice) {
+    const std::string_view json = R"({"look": {"default": "ink", "choices": ["ink", "pencil:R"]},
+                                      "n": {"default": 1, "choices": [1, 2.0], "about": "how many"},
+                                      "other": {"default": "${look}", "choices": ["ink", "x"]}})";
+    EXPECT_EQ(replaced(variables(json), R"(["${look}", "${n}", "${other}"])"), R"(["ink",1,"ink"])");
+    EXPECT_EQ(replaced(variables(json, overrides({{"n", "2"}})), R"("${n}")"), "2");
+    EXPECT_EQ(faults(json, overrides({{"n", "3"}})),
+              Texts{"--var n=3: error: 'n' is 3; it must be one of '1' and '2.0'"});
+    EXPECT_EQ(faults(json, overrides({{"look", "pencil:R"}})),
+              Texts{"g.json:3:60: error: 'other' is \"pencil:R\"; it must be one of 'ink' and 'x'"});
+    EXPECT_TRUE(variables(json).is_a_choice("ink"));
+    EXPECT_TRUE(variables(json).is_a_choice("pencil"));
+    EXPECT_FALSE(variables(json).is_a_choice("pencil:R"));
+}
+
+TEST(Variables, FaultsInChoicesAreTold) {
+    EXPECT_EQ(faults(R"({"a": {"choices": [1]}})"),
+              Texts{"g.json:1:7: error: 'default', which of the choices it is, is missing"});
+    EXPECT_EQ(faults(R"({"a": {"default": 1, "choices": []}})"),
+              Texts{"g.json:1:33: error: 'choices' is []; it must be a list of texts, numbers or truths"});
+    EXPECT_EQ(faults(R"({"a": {"default": 1, "choices": [1], "abut": 1}})"),
+              Texts{"g.json:1:38: error: unknown key 'abut'; did you mean 'about'?"});
+}
+
+TEST(Variables, KnowWhichNobodyUses) {
+    const Variables v = variables(R"({"a": 1, "b": "${a}", "c": 2, "d": "${c}", "e": "${d}"})");
+    const Value value = parse_json(R"({"x": ["${b}"]})", "g.json");
+    Texts unused;
+    for (const Member& m : v.unused_by({&value})) unused.push_back(m.key + " " + m.key_place.text());
+    EXPECT_EQ(unused, (Texts{"c g.json:1:23", "d g.json:1:31", "e g.json:1:44"}));
 }
 
 // "v0": first, "v1": each with {0} standing for ${v0}, and so on.

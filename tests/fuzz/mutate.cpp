@@ -67,6 +67,8 @@ int64_t extreme(Random& random) {
     return static_cast<int64_t>(static_cast<uint64_t>(value) + random() % 9 - 4);  // around the largest too
 }
 
+uint32_t big_endian(uint32_t v) { return v << 24U | (v & 0xFF00U) << 8U | (v >> 8U & 0xFF00U) | v >> 24U; }
+
 void flip_bits(Bytes& bytes, std::size_t from, std::size_t to, Random& random) {
     for (std::size_t n = 1 + below(8, random); n > 0 && from < to; --n)
         bytes[from + below(to - from, random)] ^= std::byte{1} << (random() % 8);
@@ -109,7 +111,7 @@ void edit_leader(Bytes& bytes, const Victim& victim, Random& random) {
 
 void damage(Bytes& bytes, const Victim& victim, const Victim& other, Random& random) {
     const std::size_t header = std::min(victim.header_end, bytes.size());
-    switch (random() % 10) {
+    switch (random() % 12) {
         case 0: flip_bits(bytes, 0, bytes.size(), random); break;
         case 1: flip_bits(bytes, 0, header, random); break;
         case 2: flip_bits(bytes, header, bytes.size(), random); break;
@@ -121,6 +123,8 @@ void damage(Bytes& bytes, const Victim& victim, const Victim& other, Random& ran
         case 6: edit_offset_table(bytes, victim, random); break;
         case 7: edit_leader(bytes, victim, random); break;
         case 8: splice(bytes, Bytes(bytes), random); break;
+        case 9: put(bytes, below(header, random), static_cast<int16_t>(extreme(random))); break;
+        case 10: put(bytes, below(header, random), big_endian(static_cast<uint32_t>(extreme(random)))); break;
         default: splice(bytes, other.bytes, random); break;
     }
 }

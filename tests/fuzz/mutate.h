@@ -13,7 +13,7 @@ namespace keyline {
 using Bytes = std::vector<std::byte>;
 using Random = std::mt19937_64;
 
-// A sound OpenEXR file and where its parts lie, so that damage can be aimed.
+// A sound file and where its parts lie, so that damage can be aimed: of an OpenEXR file all is known.
 struct Victim {
     std::string name;
     Bytes bytes;
@@ -21,7 +21,7 @@ struct Victim {
     std::vector<std::size_t> chunks;  // offsets of the chunks
 };
 
-Victim make_victim(std::string name, Bytes bytes);
+Victim make_victim(std::string name, Bytes bytes);  // of an OpenEXR file
 
 // One to three kinds of damage: flipped bits, fields of the header overwritten with extreme numbers,
 // attributes' sizes changed, the offset table or the leaders of chunks edited, bytes cut off, moved, doubled

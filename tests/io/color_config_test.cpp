@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/error.h"
-#include "engine/io/color.h"
+#include "engine/base/error.h"
+#include "engine/color/color.h"
 #include "tests/support/failure.h"
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/io/color.h"
+#include "engine/color/color.h"
 
 #include <array>
 #include <bit>
@@ -31,7 +31,7 @@ constexpr Matrix kAp0ToRec709 = {{{2.5216861867, -1.1341309882, -0.3875551985},
                                   {-0.0153780650, -0.1529753359, 1.1683534008}}};
 
 Rgb converted(const ColorTransform& transform, Rgb c) {
-    transform.apply(&c[0], &c[1], &c[2], nullptr, 1);
+    transform.apply(c.data(), &c[1], &c[2], nullptr, 1);
     return c;
 }
 
@@ -160,15 +160,15 @@ TEST(ColorTransform, APixelDoesNotDependOnItsPlaceInARow) {
 
 TEST(ColorTransform, IsTheSameFromEveryThread) {
     constexpr std::size_t kPixels = 5000;
-    const auto [r, g, b, a] = picture(kPixels);
+    const auto in = picture(kPixels);
     const ColorTransform view = ColorConfig::builtin()->display("scene_linear", "", "");
     std::array<std::array<std::vector<float>, 3>, 4> results;
     {
         std::vector<std::jthread> threads;
         for (auto& result : results)
             threads.emplace_back([&, mine = view] {
-                result = {r, g, b};
-                mine.apply(result[0].data(), result[1].data(), result[2].data(), a.data(), kPixels);
+                result = {in[0], in[1], in[2]};
+                mine.apply(result[0].data(), result[1].data(), result[2].data(), in[3].data(), kPixels);
             });
     }
     for (std::size_t t = 1; t < results.size(); ++t) EXPECT_EQ(results[t], results[0]);

@@ -146,7 +146,7 @@ double Pixels::at(int x, int y) const {
         uint16_t half = 0;
         float value = 0;
         std::memcpy(&half, bytes.data() + i, sizeof half);
-        half_to_float(&half, &value, 1);
+        simd::half_to_float(&half, &value, 1);
         return value;
     }
     float value = 0;
@@ -166,7 +166,7 @@ Pixels test_pixels(const TestChannel& channel, const Rect& window) {
             const uint32_t number =
                 hash(seed, static_cast<uint32_t>(x / 5), static_cast<uint32_t>(y / 3)) >> 20;
             uint16_t half = 0;
-            float_to_half(&value, &half, 1);
+            simd::float_to_half(&value, &half, 1);
             const void* sample = channel.type == SampleType::kHalf    ? static_cast<const void*>(&half)
                                  : channel.type == SampleType::kFloat ? static_cast<const void*>(&value)
                                                                       : static_cast<const void*>(&number);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/geometry.h"
-#include "engine/image.h"
+#include "engine/base/geometry.h"
+#include "engine/base/image.h"
 #include "engine/io/image_sink.h"
 #include "engine/io/image_source.h"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "tests/io/exr_files.h"
 
 #include <ImfAttribute.h>

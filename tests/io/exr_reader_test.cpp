@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/error.h"
-#include "engine/io/exr_layout.h"
+#include "engine/base/error.h"
+#include "engine/io/exr/layout.h"
 #include "tests/io/exr_files.h"
 
 #include <ImfChannelList.h>
@@ -219,6 +219,38 @@ TEST(ExrReader, OnlyTheFirstMainPartKeepsBareNames) {
     EXPECT_EQ(names_in(folder / "a.exr"), (std::vector<std::string>{"R", "main.R"}));
 }
 
+// Arnold, V-Ray, Karma and Nuke each call it otherwise.
+TEST(ExrReader, TheFirstPartWithColourIsTheMainOneWhateverItsName) {
+    const TemporaryFolder folder;
+    for (const std::string name : {"RGBA", "RGB_color", "C", "rgba_main", "anything"})
+        for (const bool words : {false, true}) {
+            TestPart depth, colour, other;
+            depth.name = "Z";
+            depth.channels = {{"Z"}};
+            colour.name = name;
+            if (words) colour.channels = {{"red"}, {"green"}, {"blue"}, {"alpha"}};
+            other.name = "diffuse";
+            write_with_openexr(folder / "a.exr", {depth, colour, other});
+            const std::vector<std::string> names = names_in(folder / "a.exr");
+            for (const TestChannel& c : colour.channels)
+                EXPECT_THAT(names, testing::Contains(c.name)) << name;
+            EXPECT_THAT(names, testing::Contains("diffuse.R"));
+            EXPECT_THAT(names, testing::Contains("Z.Z"));
+        }
+}
+
+TEST(ExrReader, AnAlphaInAPartOfItsOwnIsTheMainOnes) {
+    const TemporaryFolder folder;
+    TestPart rgb, alpha, mask;
+    rgb.name = "rgb";
+    rgb.channels = {{"R"}, {"G"}, {"B"}};
+    alpha.name = "RGBA";
+    mask.name = "mask";
+    alpha.channels = mask.channels = {{"A"}};
+    write_with_openexr(folder / "a.exr", {mask, rgb, alpha});
+    EXPECT_EQ(names_in(folder / "a.exr"), (std::vector<std::string>{"mask.A", "B", "G", "R", "A"}));
+}
+
 TEST(ExrReader, PartsHaveTheirOwnWindows) {
     const TemporaryFolder folder;
     TestPart a, b;
@@ -275,6 +307,22 @@ TEST(ExrReader, TakesOneViewOfChannels) {
     const Image image = read_with_keyline(folder / "a.exr", with_view("right"));
     EXPECT_EQ(image.at("R"), expected.at("right.R"));
     EXPECT_EQ(image.at("spec.R"), expected.at("spec.right.R"));
+}
+
+// Nuke puts the view first: R depth.Z, right.R right.depth.Z.
+TEST(ExrReader, ALayerThatAViewHasForItselfIsNotTheOthers) {
+    const TemporaryFolder folder;
+    TestPart part;
+    part.multi_view = {"left", "right"};
+    part.channels = {{"R"}, {"depth.Z"}, {"mask.A"}, {"right.R"}, {"right.depth.Z"}};
+    write_with_openexr(folder / "a.exr", {part});
+    EXPECT_EQ(names_in(folder / "a.exr"), (std::vector<std::string>{"R", "depth.Z", "mask.A"}));
+    EXPECT_EQ(names_in(folder / "a.exr", with_view("right")),
+              (std::vector<std::string>{"mask.A", "R", "depth.Z"}));
+    const Image expected = read_with_openexr(folder / "a.exr");
+    EXPECT_EQ(read_with_keyline(folder / "a.exr").at("depth.Z"), expected.at("depth.Z"));
+    EXPECT_EQ(read_with_keyline(folder / "a.exr", with_view("right")).at("depth.Z"),
+              expected.at("right.depth.Z"));
 }
 
 TEST(ExrReader, RefusesTwoChannelsOfOneName) {
@@ -392,11 +440,12 @@ TEST(ExrReader, SaysWhatIsNotThereOrNotAnImage) {
     EXPECT_THAT(failure_of(folder / "none.exr"), HasSubstr("none.exr: No such file or directory"));
     EXPECT_THAT(failure_of(folder.path()), HasSubstr("Is a directory"));
     write("empty.exr", "");
-    EXPECT_THAT(failure_of(folder / "empty.exr"), HasSubstr("empty.exr: not an OpenEXR file"));
+    EXPECT_THAT(failure_of(folder / "empty.exr"), HasSubstr("empty.exr: the file is empty"));
     write("text.EXR", "a text");
     EXPECT_THAT(failure_of(folder / "text.EXR"), HasSubstr("text.EXR: not an OpenEXR file"));
     write("magic.exr", "\x76\x2f\x31\x01");
-    EXPECT_THAT(failure_of(folder / "magic.exr"), HasSubstr("magic.exr: damaged header"));
+    EXPECT_THAT(failure_of(folder / "magic.exr"),
+                HasSubstr("magic.exr: the file is not finished: its header does not end"));
     ASSERT_EQ(mkfifo((folder / "pipe.exr").c_str(), 0600), 0);
     EXPECT_THAT(failure_of(folder / "pipe.exr"), HasSubstr("not a regular file"));
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "tests/io/exr_files.h"
 
 #include <ImfInputFile.h>
@@ -157,7 +157,7 @@ TEST(ExrWriter, RefusesWhatTheFormatCannotHold) {
     EXPECT_THAT(failure_of(create, ErrorKind::kGraph), HasSubstr("did you mean 'zip'?"));
     spec.compression = "zip";
     spec.channels = {{std::string(256, 'n')}};
-    EXPECT_THAT(failure_of(create, ErrorKind::kOutput), HasSubstr("255 bytes"));
+    EXPECT_THAT(failure_of(create, ErrorKind::kGraph), HasSubstr("255 bytes"));
     EXPECT_TRUE(folder.entries().empty());
 }
 

@@ -31,7 +31,7 @@ bool is_special(uint16_t half) { return (half & 0x7C00) == 0x7C00; }
 
 std::vector<uint16_t> narrowed(const std::vector<float>& floats, std::size_t* overflows = nullptr) {
     std::vector<uint16_t> halves(floats.size());
-    const std::size_t count = float_to_half(floats.data(), halves.data(), floats.size());
+    const std::size_t count = simd::float_to_half(floats.data(), halves.data(), floats.size());
     if (overflows != nullptr) *overflows = count;
     return halves;
 }
@@ -40,7 +40,7 @@ TEST(HalfToFloat, IsExactForEveryHalf) {
     const std::vector<uint16_t> halves = every_half();
     on_every_target([&] {
         std::vector<float> floats(halves.size());
-        half_to_float(halves.data(), floats.data(), halves.size());
+        simd::half_to_float(halves.data(), floats.data(), halves.size());
         for (std::size_t i = 0; i < halves.size(); ++i) {
             const auto bits = std::bit_cast<uint32_t>(floats[i]);
             const uint16_t half = halves[i];
@@ -57,7 +57,7 @@ TEST(HalfToFloat, ComesBackTheSameForEveryHalf) {
     const std::vector<uint16_t> halves = every_half();
     on_every_target([&] {
         std::vector<float> floats(halves.size());
-        half_to_float(halves.data(), floats.data(), halves.size());
+        simd::half_to_float(halves.data(), floats.data(), halves.size());
         std::size_t overflows = 1;
         ASSERT_EQ(narrowed(floats, &overflows), halves);
         EXPECT_EQ(overflows, 0U);
@@ -130,7 +130,7 @@ TEST(FloatToHalf, TreatsTheEndsOfRowsLikeTheirMiddle) {
             std::vector<float> floats(n + 2, 1.0F);
             std::vector<uint16_t> halves(n + 2, 0xABCD);
             floats[n] = 1e6F;
-            const std::size_t overflows = float_to_half(floats.data() + 1, halves.data() + 1, n);
+            const std::size_t overflows = simd::float_to_half(floats.data() + 1, halves.data() + 1, n);
             EXPECT_EQ(overflows, n == 0 ? 0U : 1U);
             EXPECT_EQ(halves.front(), 0xABCD);
             EXPECT_EQ(halves.back(), 0xABCD);
@@ -162,7 +162,7 @@ TEST(UintToFloat, RoundsOnceAndCountsWhatAFloatCannotHold) {
     }
     on_every_target([&] {
         std::vector<float> floats(values.size());
-        EXPECT_EQ(uint_to_float(values.data(), floats.data(), values.size()), inexact);
+        EXPECT_EQ(simd::uint_to_float(values.data(), floats.data(), values.size()), inexact);
         EXPECT_EQ(floats, expected);
     });
 }
@@ -179,7 +179,7 @@ TEST(FloatToUint, RoundsClampsAndCounts) {
         2147483648U, 2147483520U, 4294967040U, 4294967295U, 4294967295U, 0, 4294967295U, 8388609U, 16777216U};
     on_every_target([&] {
         std::vector<uint32_t> values(floats.size());
-        EXPECT_EQ(float_to_uint(floats.data(), values.data(), floats.size()), 6U);
+        EXPECT_EQ(simd::float_to_uint(floats.data(), values.data(), floats.size()), 6U);
         EXPECT_EQ(values, expected);
     });
 }

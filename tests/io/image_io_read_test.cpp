@@ -26,7 +26,7 @@ TEST(ImageIoRead, TellsWindowsChannelsTypeAndFormat) {
     const Folder folder;
     const Pixels in = ramp(33, 9, {"R", "G", "B", "A"});
     write(folder / "a.png", in, spec_for(in, Depth::kUint16));
-    const auto source = open_file(folder / "a.png");
+    const auto source = open_image(folder / "a.png");
     const ImageHeader& header = source->header();
     EXPECT_EQ(header.format, "png");
     EXPECT_EQ(header.display_window, (Rect{0, 0, 33, 9}));
@@ -47,12 +47,12 @@ TEST(ImageIoRead, TheContentDecidesTheFormat) {
     const Pixels in = ramp(5, 4, {"R", "G", "B"});
     write(folder / "a.png", in, spec_for(in));
     std::filesystem::rename(folder / "a.png", folder / "b.jpg");
-    EXPECT_EQ(open_file(folder / "b.jpg")->header().format, "png");
+    EXPECT_EQ(open_image(folder / "b.jpg")->header().format, "png");
     std::filesystem::rename(folder / "b.jpg", folder / "noextension");
-    EXPECT_EQ(open_file(folder / "noextension")->header().format, "png");
+    EXPECT_EQ(open_image(folder / "noextension")->header().format, "png");
 }
 
-TEST(ImageIoRead, TheLibraryFindsTheModule) {
+TEST(ImageIoRead, OneThatIsFinishedIsKnown) {
     const Folder folder;
     const Pixels in = ramp(7, 70, {"R", "G", "B"});
     const auto sink = create_image(folder / "a.png", spec_for(in));
@@ -66,7 +66,7 @@ TEST(ImageIoRead, StoresOnlyWhatIsWanted) {
     const Folder folder;
     const Pixels in = ramp(40, 30, {"R", "G", "B"});
     write(folder / "a.tif", in, spec_for(in, Depth::kFloat));
-    const auto source = open_file(folder / "a.tif");
+    const auto source = open_image(folder / "a.tif");
     const Rect wanted = {7, 3, 12, 25};
     std::vector<float> values(40 * 30, -1);
     std::vector<Plane> planes(3);
@@ -110,7 +110,7 @@ TEST(ImageIoRead, ChunksMayBeReadInAnyOrderAndTwice) {
     const Pixels in = ramp(701, 2003, {"Y"});
     for (const char* name : {"a.png", "a.tif", "a.tga"}) {
         write(folder / name, in, spec_for(in, std::string(name) == "a.tga" ? Depth::kUint8 : Depth::kUint16));
-        const auto source = open_file(folder / name);
+        const auto source = open_image(folder / name);
         const int rows = source->header().groups[0].rows();
         ASSERT_GT(rows, 1);
         const Pixels all = read(*source);
@@ -130,7 +130,7 @@ TEST(ImageIoRead, ManyThreadsReadOnePicture) {
     rgb.names = {"R", "G", "B"};
     rgb.channels.push_back(in.channels[0]);
     write(folder / "a.png", rgb, spec_for(rgb, Depth::kUint8));
-    const auto source = open_file(folder / "a.png");
+    const auto source = open_image(folder / "a.png");
     const int rows = source->header().groups[0].rows();
     ASSERT_GT(rows, 4);
     std::vector<std::vector<float>> chunks(static_cast<std::size_t>(rows));

@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_io_support.h"
 
-#include "engine/io/image_module.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <dlfcn.h>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -18,13 +15,6 @@
 namespace keyline::test {
 
 namespace {
-
-template <class Function>
-Function* symbol(const char* name) {
-    void* module = dlopen(KEYLINE_IMAGE_IO, RTLD_NOW | RTLD_LOCAL);
-    if (module == nullptr) throw std::runtime_error(dlerror());
-    return reinterpret_cast<Function*>(dlsym(module, name));
-}
 
 float half_as_float(const std::byte* from) {
     std::uint16_t h = 0;
@@ -48,16 +38,6 @@ std::vector<Plane> planes_over(const Pixels& pixels, const Rect& chunk, const Re
 }
 
 }  // namespace
-
-std::unique_ptr<ImageSource> open_file(const std::filesystem::path& file, const OpenOptions& options) {
-    static auto* const open = symbol<KeylineOpenImage>("keyline_open_image");
-    return std::unique_ptr<ImageSource>(open(file.c_str(), &options));
-}
-
-std::unique_ptr<ImageSink> create_file(const std::filesystem::path& file, const SinkSpec& spec) {
-    static auto* const create = symbol<KeylineCreateImage>("keyline_create_image");
-    return std::unique_ptr<ImageSink>(create(file.c_str(), &spec));
-}
 
 float Pixels::at(std::string_view channel, int x, int y) const {
     const auto found = std::ranges::find(names, channel);
@@ -105,7 +85,7 @@ void commit_all(ImageSink& sink, const Pixels& pixels) {
 }
 
 void write(const std::filesystem::path& file, const Pixels& pixels, const SinkSpec& spec) {
-    const auto sink = create_file(file, spec);
+    const auto sink = create_image(file, spec);
     commit_all(*sink, pixels);
     sink->finish();
 }
@@ -138,7 +118,7 @@ Pixels read(const ImageSource& source) {
     return pixels;
 }
 
-Pixels read(const std::filesystem::path& file) { return read(*open_file(file)); }
+Pixels read(const std::filesystem::path& file) { return read(*open_image(file)); }
 
 Folder::Folder() {
     std::string name = (std::filesystem::temp_directory_path() / "keyline_image_io_XXXXXX").string();

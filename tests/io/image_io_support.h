@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "engine/io/image_sink.h"
 #include "engine/io/image_source.h"
 #include "tests/support/failure.h"
@@ -14,10 +14,6 @@
 #include <vector>
 
 namespace keyline::test {
-
-// The module's functions, as the loader calls them.
-std::unique_ptr<ImageSource> open_file(const std::filesystem::path& file, const OpenOptions& = {});
-std::unique_ptr<ImageSink> create_file(const std::filesystem::path& file, const SinkSpec& spec);
 
 // A picture in memory: channels of width × height floats over the display window.
 struct Pixels {

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/io/output_file.h"
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "engine/io/image_sink.h"
 #include "tests/io/exr_files.h"
 
+#include <chrono>
 #include <csignal>
 #include <fmt/format.h>
 #include <fstream>
@@ -45,12 +46,6 @@ std::string failure_of(const std::function<void()>& action) {
     return "";
 }
 
-std::string unfinished_name(const std::string& stem, pid_t process) {
-    std::array<char, 256> host = {};
-    gethostname(host.data(), host.size());
-    return fmt::format(".{}.{}.{}.keyline.exr", stem, host.data(), process);
-}
-
 // Runs `action` in a process of its own; returns how that ended (see waitpid).
 int in_child(const std::function<void()>& action) {
     const pid_t child = fork();
@@ -63,11 +58,17 @@ int in_child(const std::function<void()>& action) {
     return status;
 }
 
-pid_t dead_process() {
-    const pid_t child = fork();
-    if (child == 0) _exit(0);
-    waitpid(child, nullptr, 0);
-    return child;
+struct stat status_of(const std::filesystem::path& file) {
+    struct stat status = {};
+    EXPECT_EQ(stat(file.c_str(), &status), 0) << file;
+    return status;
+}
+
+unsigned mode_of(const std::filesystem::path& file) { return status_of(file).st_mode & 0777U; }
+
+// As if nobody had written to it for so long.
+void age(const std::filesystem::path& file, std::chrono::hours hours) {
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() - hours);
 }
 
 class OutputFileTest : public testing::TestWithParam<Unfinished> {
@@ -110,9 +111,22 @@ TEST_P(OutputFileTest, ModeFollowsTheUmask) {
     OutputFile file(folder / "a.exr", GetParam());
     file.publish();
     umask(before);
-    struct stat status = {};
-    ASSERT_EQ(stat((folder / "a.exr").c_str(), &status), 0);
-    EXPECT_EQ(status.st_mode & 0777U, 0640U);
+    EXPECT_EQ(mode_of(folder / "a.exr"), 0640U);
+}
+
+TEST_P(OutputFileTest, WhoSharesTheOlderFileGoesOnSharingIt) {
+    write_file(folder / "a.exr", "old");
+    ASSERT_EQ(chmod((folder / "a.exr").c_str(), 0664), 0);
+    const bool may_give = geteuid() == 0;
+    ASSERT_EQ(may_give ? chown((folder / "a.exr").c_str(), 1234, 2345) : 0, 0);
+    const struct stat before = status_of(folder / "a.exr");
+    OutputFile file(folder / "a.exr", GetParam());
+    file.publish();
+    const struct stat after = status_of(folder / "a.exr");
+    EXPECT_EQ(after.st_size, 0);
+    EXPECT_EQ(after.st_mode & 0777U, 0664U);
+    EXPECT_EQ(after.st_uid, before.st_uid);
+    EXPECT_EQ(after.st_gid, before.st_gid);
 }
 
 TEST_P(OutputFileTest, WritesThroughSymbolicLinks) {
@@ -168,11 +182,30 @@ TEST_P(OutputFileTest, AFullDiskIsAnError) {
     EXPECT_THAT(folder.entries(), IsEmpty());
 }
 
+// Two that differ in their last letters only, at work at once.
 TEST_P(OutputFileTest, NamesOfAnyLengthWork) {
-    const std::string name = std::string(251, 'n') + ".exr";
-    OutputFile file(folder / name, GetParam());
-    file.publish();
-    EXPECT_THAT(folder.entries(), ElementsAre(name));
+    const std::string stem(250, 'n');
+    OutputFile one(folder / (stem + "1.exr"), GetParam()), two(folder / (stem + "2.exr"), GetParam());
+    one.append(bytes("one"));
+    two.append(bytes("two"));
+    two.publish();
+    one.publish();
+    EXPECT_THAT(folder.entries(), ElementsAre(stem + "1.exr", stem + "2.exr"));
+    EXPECT_EQ(content(folder / (stem + "1.exr")), "one");
+    EXPECT_EQ(content(folder / (stem + "2.exr")), "two");
+}
+
+// As two processes do that a split network made render the same frame.
+TEST_P(OutputFileTest, OneOutputTwiceAtWorkIsWholeTwice) {
+    OutputFile one(folder / "a.exr", GetParam()), two(folder / "a.exr", GetParam());
+    one.append(bytes("one"));
+    two.append(bytes("two, half"));
+    one.publish();
+    EXPECT_EQ(content(folder / "a.exr"), "one");
+    two.append(bytes(" and whole"));
+    two.publish();
+    EXPECT_EQ(content(folder / "a.exr"), "two, half and whole");
+    EXPECT_THAT(folder.entries(), ElementsAre("a.exr"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Unnamed, OutputFileTest, testing::Values(Unfinished::kUnnamedWherePossible));
@@ -229,17 +262,30 @@ TEST(OutputFile, AKilledRenderLeavesNothing) {
     EXPECT_THAT(folder.entries(), IsEmpty());
 }
 
-TEST(RemoveLeftovers, OnlyOfThisOutputAndOfDeadProcessesOfThisHost) {
+// What another process is at work on is left alone, however old; so is what is called like it and is not
+// ours.
+TEST(RemoveLeftovers, NothingThatIsAtWork) {
     const TemporaryFolder folder;
-    const pid_t dead = dead_process();
-    const std::string leftover = unfinished_name("a", dead);
-    const std::vector<std::string> others = {unfinished_name("a", getppid()), unfinished_name("b", dead),
-                                             fmt::format(".a.elsewhere.{}.keyline.exr", dead),
-                                             unfinished_name("a", dead) + "x", "a.exr"};
-    write_file(folder / leftover, "");
-    for (const std::string& name : others) write_file(folder / name, "");
+    OutputFile file(folder / "a.exr", OutputFile::Unfinished::kNamed);
+    file.append(bytes("half"));
+    age(file.unfinished_path(), std::chrono::hours(100));
+    for (const char* name : {".keyline", "keyline-1-2.exr", ".a.keyline-1.exr"})
+        write_file(folder / name, "");
+    remove_leftovers(folder / "b.exr");
+    EXPECT_EQ(folder.entries().size(), 4U);
+    file.publish();
+    EXPECT_EQ(content(folder / "a.exr"), "half");
+}
+
+// Of another machine nothing is known but when it last wrote.
+TEST(RemoveLeftovers, OfAnotherMachineAfterADay) {
+    const TemporaryFolder folder;
+    write_file(folder / ".keyline-elsewher-0123456789abcdef.exr", "");
+    write_file(folder / ".keyline-elsewher-fedcba9876543210.exr", "");
+    age(folder / ".keyline-elsewher-0123456789abcdef.exr", std::chrono::hours(23));
+    age(folder / ".keyline-elsewher-fedcba9876543210.exr", std::chrono::hours(25));
     remove_leftovers(folder / "a.exr");
-    EXPECT_THAT(folder.entries(), testing::UnorderedElementsAreArray(others));
+    EXPECT_THAT(folder.entries(), ElementsAre(".keyline-elsewher-0123456789abcdef.exr"));
     EXPECT_NO_THROW(remove_leftovers(folder / "not/there/a.exr"));
 }
 
@@ -247,7 +293,11 @@ TEST(RemoveLeftovers, LooksBehindSymbolicLinks) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "real");
     std::filesystem::create_symlink("real/a.exr", folder / "link.exr");
-    write_file(folder / "real" / unfinished_name("a", dead_process()), "");
+    in_child([&] {
+        const OutputFile file(folder / "real/a.exr", OutputFile::Unfinished::kNamed);
+        kill(getpid(), SIGKILL);
+    });
+    ASSERT_FALSE(std::filesystem::is_empty(folder / "real"));
     remove_leftovers(folder / "link.exr");
     EXPECT_TRUE(std::filesystem::is_empty(folder / "real"));
 }

@@ -36,7 +36,7 @@ class Predictor : public testing::TestWithParam<std::size_t> {};
 TEST_P(Predictor, PacksAsTheFormatSays) {
     const std::vector<std::byte> samples = noise(2 * GetParam());
     std::vector<std::byte> packed(samples.size());
-    split_and_difference(samples.data(), packed.data(), GetParam());
+    simd::split_and_difference(samples.data(), packed.data(), GetParam());
     EXPECT_EQ(packed, reference(samples));
 }
 
@@ -45,9 +45,9 @@ TEST_P(Predictor, ComesBackTheSameOnEveryTarget) {
     const std::vector<std::byte> samples = noise(2 * pairs);
     on_every_target([&] {
         std::vector<std::byte> block = reference(samples);
-        undo_difference(block.data(), block.size());
+        simd::undo_difference(block.data(), block.size());
         std::vector<std::byte> joined(samples.size());
-        join(block.data(), block.data() + pairs, joined.data(), pairs);
+        simd::join_bytes(block.data(), block.data() + pairs, joined.data(), pairs);
         EXPECT_EQ(joined, samples);
     });
 }
@@ -56,9 +56,9 @@ TEST_P(Predictor, JoinsARunFromTheMiddle) {
     const std::size_t pairs = GetParam() + 1;
     const std::vector<std::byte> samples = noise(2 * pairs);
     std::vector<std::byte> block = reference(samples);
-    undo_difference(block.data(), block.size());
+    simd::undo_difference(block.data(), block.size());
     std::vector<std::byte> joined(2 * (pairs - 1));
-    join(block.data() + 1, block.data() + pairs + 1, joined.data(), pairs - 1);
+    simd::join_bytes(block.data() + 1, block.data() + pairs + 1, joined.data(), pairs - 1);
     EXPECT_EQ(joined, std::vector<std::byte>(samples.begin() + 2, samples.end()));
 }
 

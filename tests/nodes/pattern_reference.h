@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/noise.h"
+#include "engine/kit/noise.h"
 #include "tests/nodes/plate.h"
 
 #include <array>

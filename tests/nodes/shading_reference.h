@@ -55,7 +55,7 @@ struct PixelHere {
 
 // The images of a shading node's inputs by port name (and by node name for the lights' shadows), and its
 // lights.
-struct Scene {
+struct ShadedScene {
     std::map<std::string, Image> images;
     std::vector<TestLight> lights;
     bool colored_lights = true;
@@ -146,8 +146,8 @@ struct Scene {
 };
 
 // Every input there is, at random; normals of all lengths, and none at one pixel of eight.
-inline Scene random_scene(const Rect& window, unsigned seed, bool premultiplied) {
-    Scene scene;
+inline ShadedScene random_scene(const Rect& window, unsigned seed, bool premultiplied) {
+    ShadedScene scene;
     scene.images["albedo"] = noise(window, {"R", "G", "B"}, seed, 0, 0.9F);
     if (premultiplied) scene.images["albedo"] = noise(window, {"R", "G", "B", "A"}, seed, 0.1F, 0.9F);
     scene.images["normal"] = noise(window, {"X", "Y", "Z"}, seed + 1, -1, 1);
@@ -162,8 +162,8 @@ inline Scene random_scene(const Rect& window, unsigned seed, bool premultiplied)
 }
 
 // Albedo, coverage and normals of a render, lit from both sides.
-inline Scene plate_scene() {
-    Scene scene;
+inline ShadedScene plate_scene() {
+    ShadedScene scene;
     scene.images["albedo"] = plate("ViewLayer.DiffCol", {"R", "G", "B"});
     scene.images["coverage"] = plate("ViewLayer.Combined", {"A"});
     scene.images["normal"] = plate("ViewLayer.Normal", {"X", "Y", "Z"});

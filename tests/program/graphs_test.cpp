@@ -25,6 +25,7 @@ protected:
     ShippedGraph() {
         fs::create_directory(folder() / "graphs");
         fs::create_symlink(plates(), folder() / "graphs" / "plates");
+        fs::create_symlink(plates().parent_path() / "groups", folder() / "graphs" / "groups");
         fs::copy(plates().parent_path() / (GetParam() + ".json"), folder() / graph_);
     }
 

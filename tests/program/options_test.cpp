@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/program/program.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -156,6 +157,49 @@ TEST_F(Options, OcioComesFromOptionGraphOrEnvironment) {
           R"("ocio": "graphs.ocio",)");
     const Outcome graphs = keyline({"check", "graph.json"}, {.environment = {"OCIO=environment.ocio"}});
     EXPECT_THAT(graphs.err, HasSubstr("graphs.ocio"));
+}
+
+// An internal error names such a command.
+TEST_F(Options, ATileOfANodeIsComputedAlone) {
+    const auto tile = [&](const std::string& which) {
+        return keyline({"render", "graph.json", "--only-tile", which, "--frames=3"});
+    };
+    const Outcome alone = tile("c@4,8,16,8");
+    EXPECT_EQ(alone.status, 0) << alone.err;
+    EXPECT_THAT(alone.out, testing::StartsWith("c, frame 3: 16 × 8 at (4, 8)\n  R: "));
+    EXPECT_THAT(alone.out, HasSubstr(" from 0.25 to 0.25, 0 not finite\n"));
+    EXPECT_EQ(tile("c@4,8,16,8").out, alone.out);
+    EXPECT_NE(tile("blur@4,8,16,8").out, alone.out);
+    EXPECT_THAT(files(), ElementsAre("graph.json")) << "nothing is written";
+    EXPECT_THAT(tile("blurr@0,0,4,4").err, HasSubstr("there is no node 'blurr' that makes an image"));
+    for (const char* wrong : {"c", "c@1,2,3", "c@1,2,3,0", "@1,2,3,4", "c@1,2,3,x", "c@1,2,3,4,5"}) {
+        const Outcome refused = tile(wrong);
+        EXPECT_EQ(refused.status, 2) << wrong;
+        EXPECT_THAT(refused.err, HasSubstr(std::string("--only-tile ") + wrong + ": error: ")) << wrong;
+    }
+}
+
+// A config that OpenColorIO has something to say of: in Keyline's form, once, and as an event where those are
+// asked for.
+TEST_F(Options, WhatOpenColorIOSaysIsAWarning) {
+    write("show.ocio",
+          "ocio_profile_version: 2\n"
+          "roles:\n  default: raw\n  scene_linear: raw\n"
+          "displays:\n  screen:\n    - !<View> {name: Raw, colorspace: raw}\n"
+          "colorspaces:\n  - !<ColorSpace>\n    name: raw\n    isdata: true\n    mood: gloomy\n"
+          "  - !<ColorSpace>\n    name: other\n");
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "to": { "type": "colorspace", "in": "c", "to": "other" },
+             "out": { "type": "write", "in": "to", "file": "out.#.exr" })",
+          R"("ocio": "show.ocio",)");
+    const Outcome lines = keyline({"render", "graph.json", "--frames", "1-3", "--progress", "none"});
+    EXPECT_EQ(lines.status, 0) << lines.err;
+    EXPECT_TRUE(lines.err.starts_with("warning: OpenColorIO: ")) << lines.err;
+    EXPECT_THAT(lines.err, HasSubstr("mood"));
+    EXPECT_THAT(lines.err, testing::Not(HasSubstr("[OpenColorIO")));
+    EXPECT_EQ(std::ranges::count(lines.err, '\n'), 2) << lines.err;  // and how the run ended
+    const Outcome json = keyline({"render", "graph.json", "--frames", "1-3", "--progress", "json"});
+    EXPECT_THAT(json.err, HasSubstr(R"({"event": "warning", "text": "warning: OpenColorIO: )"));
 }
 
 }  // namespace

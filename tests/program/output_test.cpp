@@ -3,7 +3,9 @@
 #include "tests/program/program.h"
 
 #include <csignal>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <map>
 #include <sys/resource.h>
 
 // What stands in the folder after a run that did not end well.
@@ -47,11 +49,51 @@ TEST_F(Outputs, SigtermLeavesNothing) {
     EXPECT_THAT(files(), ElementsAre("graph.json"));
 }
 
+// A session that ends, or a terminal that is closed.
+TEST_F(Outputs, SighupLeavesNothingAndSaysSo) {
+    graph(kSlow);
+    const Outcome run = interrupt(SIGHUP);
+    EXPECT_EQ(run.status, 129) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(R"("signal": "SIGHUP")"));
+    EXPECT_THAT(files(), ElementsAre("graph.json"));
+}
+
 TEST_F(Outputs, SigkillLeavesNothingUnderTheName) {
     graph(kSlow);
     write("out.exr", "what was there before");
     EXPECT_EQ(interrupt(SIGKILL).status, -SIGKILL);
     EXPECT_EQ(read(folder() / "out.exr"), "what was there before");
+}
+
+// A file that is opened as descriptor 2 gets the progress lines into its middle.
+TEST_F(Outputs, NoClosedStreamLetsTextIntoAFile) {
+    graph(R"("c": { "type": "constant", "color": [0.5, 0.25, 0], "size": [64, 64] },
+             "a": { "type": "write", "in": "c", "file": "a.##.exr" },
+             "b": { "type": "write", "in": "c", "file": "b.##.png" })");
+    const std::vector<std::string> render{"render", "graph.json", "--frames", "1-6", "--progress", "lines"};
+    ASSERT_EQ(keyline(render).status, 0);
+    std::map<int, std::string> exr, png;
+    for (int frame = 1; frame <= 6; ++frame) {
+        exr[frame] = read(folder() / fmt::format("a.{:02}.exr", frame));
+        png[frame] = read(folder() / fmt::format("b.{:02}.png", frame));
+    }
+    for (unsigned set = 1; set < 8; ++set) {
+        RunOptions options;
+        for (const int stream : {0, 1, 2})
+            if ((set >> static_cast<unsigned>(stream) & 1U) != 0) options.closed.push_back(stream);
+        SCOPED_TRACE(testing::PrintToString(options.closed));
+        EXPECT_EQ(keyline(render, options).status, 0);
+        for (int frame = 1; frame <= 6; ++frame) {
+            EXPECT_EQ(read(folder() / fmt::format("a.{:02}.exr", frame)), exr[frame]) << frame;
+            EXPECT_EQ(read(folder() / fmt::format("b.{:02}.png", frame)), png[frame]) << frame;
+        }
+    }
+}
+
+TEST_F(Outputs, AResultForAClosedStreamIsLostAloud) {
+    const Outcome run = keyline({"nodes"}, {.closed = {1}});
+    EXPECT_EQ(run.status, 4);
+    EXPECT_THAT(run.err, HasSubstr("standard output"));
 }
 
 TEST_F(Outputs, AnIgnoredSignalStaysIgnored) {
@@ -64,12 +106,27 @@ TEST_F(Outputs, AnIgnoredSignalStaysIgnored) {
     EXPECT_EQ(process.wait().status, 0);
 }
 
+// Frame 1 is done long before frame 3000, and is then taken away.
+TEST_F(Outputs, ARunEndsWellOnlyWhereAllIsThere) {
+    graph(R"("c":    { "type": "constant", "color": [0.5, 0.25, 0], "size": ["${frame}", 3000] },
+             "blur": { "type": "gaussian", "in": "c", "sigma": 100 },
+             "out":  { "type": "write", "in": "blur", "file": "out/a.####.exr" })");
+    Process process({"render", "graph.json", "--frames", "1,3000", "--progress", "lines", "--threads", "1"},
+                    {.folder = folder()});
+    ASSERT_TRUE(process.read_until("frame 1: done"));
+    fs::remove(folder() / "out/a.0001.exr");
+    const Outcome run = process.wait();
+    EXPECT_EQ(run.status, 4);
+    EXPECT_THAT(run.err, HasSubstr("a.0001.exr' was written and is not there"));
+    EXPECT_THAT(run.err, HasSubstr("1 failed"));
+}
+
 TEST_F(Outputs, AnOlderFileStaysWhenARenderFails) {
     write("plate.exr", read(plates() / "street.0001.exr").substr(0, 200000));
     write("out.exr", "what was there before");
     graph(R"("r": { "type": "read", "file": "plate.exr" },
              "out": { "type": "write", "in": "r", "file": "out.exr" })");
-    EXPECT_EQ(keyline({"render", "graph.json"}).status, 3);
+    EXPECT_EQ(keyline({"render", "graph.json"}).status, 75);
     EXPECT_EQ(read(folder() / "out.exr"), "what was there before");
     EXPECT_THAT(files(), ElementsAre("graph.json", "out.exr", "plate.exr"));
 }
@@ -97,7 +154,8 @@ TEST_F(Outputs, AnOlderFileIsReplacedAndFoldersAreMade) {
              "a": { "type": "write", "in": "c", "file": "old/out.exr" },
              "b": { "type": "write", "in": "c", "file": "new/deep/out.exr" })");
     EXPECT_EQ(keyline({"render", "graph.json"}).status, 0);
-    EXPECT_EQ(read(folder() / "old/out.exr"), read(folder() / "new/deep/out.exr"));
+    EXPECT_EQ(keyline({"verify", "graph.json"}).out,
+              "old/out.exr: current\nnew/deep/out.exr: current\n2 outputs: 2 current\n");
 }
 
 TEST_F(Outputs, ASymbolicLinkIsWrittenThrough) {

@@ -12,6 +12,7 @@
 #include <spawn.h>
 #include <sstream>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -69,6 +70,11 @@ Process::Process(const std::vector<std::string>& arguments, const RunOptions& op
     check(posix_spawn_file_actions_addchdir_np(&actions, options.folder.c_str()), "chdir");
     check(posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out_.c_str(), O_WRONLY, 0), "stdout");
     check(posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO), "stderr");
+    if (!options.in.empty())
+        check(posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, options.in.c_str(), O_RDONLY, 0),
+              "stdin");
+    for (const int stream : options.closed)
+        check(posix_spawn_file_actions_addclose(&actions, stream), "close");
     std::vector<std::string> all{KEYLINE_PROGRAM}, environment = environment_with(options.environment);
     all.insert(all.end(), arguments.begin(), arguments.end());
     check(posix_spawn(&pid_, KEYLINE_PROGRAM, &actions, nullptr, pointers(all).data(),
@@ -113,10 +119,12 @@ void Process::close_standard_error() {
 Outcome Process::wait() {
     for (std::string more = read_some(); !more.empty(); more = read_some()) read_ += more;
     int status = 0;
-    if (waitpid(pid_, &status, 0) != pid_) check(errno, "waitpid");
+    rusage usage = {};
+    if (wait4(pid_, &status, 0, &usage) != pid_) check(errno, "wait4");
     pid_ = -1;
     return {WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status),
-            own_out_ ? read_file(out_) : std::string(), read_};
+            own_out_ ? read_file(out_) : std::string(), read_,
+            static_cast<std::size_t>(usage.ru_maxrss) << 10};
 }
 
 fs::path plates() { return KEYLINE_PLATES; }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
@@ -18,12 +19,15 @@ namespace fs = std::filesystem;
 struct Outcome {
     int status = -1;  // the exit status; minus the signal where one ended it
     std::string out, err;
+    std::size_t peak = 0;  // bytes of memory at most; of its largest process where it has helpers
 };
 
 struct RunOptions {
     fs::path folder = {};                       // the working directory; empty: the test's own
     std::vector<std::string> environment = {};  // NAME=VALUE, beside what there is
     fs::path out = {};                          // where standard output goes; empty: into Outcome::out
+    fs::path in = {};                           // what standard input is; empty: the tests' own
+    std::vector<int> closed = {};               // of the descriptors 0, 1 and 2
 };
 
 // A process under way.

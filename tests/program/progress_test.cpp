@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/program/program.h"
 
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -44,13 +45,14 @@ TEST_F(Progress, LinesAreWhatAPipeGets) {
     }
 }
 
-TEST_F(Progress, NoneTellsWarningsOnly) {
+TEST_F(Progress, NoneTellsWarningsAndTheEnd) {
     graph(kNodes);
     const Outcome run = render("none");
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(
         run.err,
-        "graph.json:4:5: warning: node 'spare' (gaussian): nothing that is written uses it; it is not run\n");
+        "graph.json:4:5: warning: node 'spare' (gaussian): nothing that is written uses it; it is not run\n"
+        "keyline: done frames=1-3 retry=no reason=none\n");
 }
 
 TEST_F(Progress, TheBarIsDrawnAnewAndTakenAway) {
@@ -91,11 +93,19 @@ TEST_F(Progress, JsonHoldsErrorsToo) {
              "out": { "type": "write", "in": "r", "file": "out.#.exr" })");
     const Outcome run = render("json");
     EXPECT_EQ(run.status, 3);
-    bool told = false;
-    for (const auto& e : events(run.err))
-        told = told || (e.at("event") == "error" &&
-                        e.at("text").get<std::string>().find("in.1.exr") != std::string::npos);
-    EXPECT_TRUE(told) << run.err;
+    const auto all = events(run.err);
+    const auto error =
+        std::ranges::find_if(all, [](const nlohmann::json& e) { return e.at("event") == "error"; });
+    ASSERT_NE(error, all.end()) << run.err;
+    EXPECT_THAT(error->at("text").get<std::string>(), HasSubstr("in.1.exr"));
+    EXPECT_EQ(error->at("kind"), "input");
+    EXPECT_EQ(error->at("place"),
+              nlohmann::json::parse(R"({ "file": "graph.json", "line": 2, "column": 32 })"));
+    EXPECT_EQ(error->at("node"), "node 'r' (read)");
+    EXPECT_THAT(error->at("what").get<std::string>(), testing::StartsWith("in.1.exr: no such file"));
+    EXPECT_EQ(all.back().at("untried"), "2, 3");
+    EXPECT_EQ(all.back().at("frames"), "1-3");
+    EXPECT_EQ(all.back().at("text"), "keyline: failed frames=1-3 retry=no reason=input");
 }
 
 TEST_F(Progress, WarningsNeverHoldTheWordOfErrors) {

@@ -61,7 +61,7 @@ TEST_F(Frames, TheFrameAsAParameterNeedsFramesToo) {
              "out": { "type": "write", "in": "c", "file": "out.exr" })");
     const Outcome without = keyline({"render", "graph.json"});
     EXPECT_EQ(without.status, 2);
-    EXPECT_THAT(without.err, HasSubstr("${frame}"));
+    EXPECT_THAT(without.err, HasSubstr("it depends on the frame; say which frames with --frames"));
     EXPECT_EQ(render("7").status, 0);
     EXPECT_THAT(keyline({"info", "out.exr"}).out, HasSubstr("7 × 4"));
 }
@@ -82,6 +82,96 @@ TEST_F(Frames, SeveralFramesIntoOneFileAreRefused) {
     EXPECT_THAT(files(), ElementsAre("graph.json"));
 }
 
+TEST_F(Frames, DownwardsAndAsFarmsWriteThem) {
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "out": { "type": "write", "in": "c", "file": "out.#.exr" })");
+    EXPECT_EQ(render("5-1:2").status, 0);
+    EXPECT_THAT(files(), ElementsAre("graph.json", "out.1.exr", "out.3.exr", "out.5.exr"));
+    EXPECT_EQ(render("7 - 8, 9").status, 0);
+    EXPECT_TRUE(exists("out.9.exr"));
+}
+
+// Lists come from files and other programs, a frame or a range a line.
+TEST_F(Frames, FromAFileAndFromStandardInput) {
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "out": { "type": "write", "in": "c", "file": "out.#.exr" })");
+    write("list", "1-2\r\n\n 7 , 9\n");
+    EXPECT_EQ(render("@list").status, 0);
+    EXPECT_THAT(files(),
+                ElementsAre("graph.json", "list", "out.1.exr", "out.2.exr", "out.7.exr", "out.9.exr"));
+    EXPECT_EQ(keyline({"render", "graph.json", "--frames", "-"}, {.in = write("piped", "4:\n")}).status, 2);
+    EXPECT_EQ(keyline({"render", "graph.json", "--frames", "-"}, {.in = write("piped", "4\n")}).status, 0);
+    EXPECT_TRUE(exists("out.4.exr"));
+    EXPECT_THAT(render("@nowhere").err,
+                HasSubstr("--frames @nowhere: error: cannot read the list 'nowhere': "));
+    const Outcome twice = keyline({"render", "-", "--frames", "-"}, {.in = folder() / "graph.json"});
+    EXPECT_EQ(twice.status, 2);
+    EXPECT_THAT(twice.err, HasSubstr("--frames -: error: the graph comes by standard input too"));
+}
+
+// What there is to do may be nothing; then nothing is done, and that is well.
+TEST_F(Frames, AnEmptyListIsNoFrames) {
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "out": { "type": "write", "in": "c", "file": "out.#.exr" })");
+    write("list", "\n");
+    const Outcome run = render("@list");
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.err, "keyline: done frames=- retry=no reason=none\n");
+    EXPECT_THAT(files(), ElementsAre("graph.json", "list"));
+}
+
+TEST_F(Frames, AllAreThoseOnDisk) {
+    graph(R"("r":     { "type": "read", "file": "in/plate.####.exr" },
+             "spare": { "type": "read", "file": "spare.####.exr" },
+             "out":   { "type": "write", "in": "r:Combined", "file": "out.#.exr" })");
+    EXPECT_THAT(render("all").err,
+                HasSubstr("--frames all: error: no frame of what the graph reads was found"));
+    for (const int frame : {3, 12}) plate(frame);
+    fs::copy(plates() / "street.0001.exr", folder() / "spare.0099.exr");
+    const Outcome run = render("all");
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("keyline: done frames=3,12 "));
+}
+
+// The names of all are known from one or two of them: the first is begun at once.
+TEST_F(Frames, AMillionFramesBeginAtOnce) {
+    plate(1);
+    graph(kSequence);
+    Process process({"render", "graph.json", "--frames", "1-1000000", "--progress", "lines"},
+                    {.folder = folder()});
+    EXPECT_TRUE(process.read_until("frame 1: done"));
+    EXPECT_EQ(process.wait().status, 3);  // frame 2 is not there
+}
+
+TEST_F(Frames, ASingleHashInAFolderIsTheFolders) {
+    fs::create_directories(folder() / "take#1");
+    fs::copy(plates() / "street.0001.exr", folder() / "take#1/plate.0001.exr");
+    graph(R"("r":   { "type": "read", "file": "take#1/plate.####.exr" },
+             "out": { "type": "write", "in": "r:Combined", "file": "out#/\\#.##/comp.####.exr" })");
+    EXPECT_EQ(render("1").status, 0);
+    EXPECT_TRUE(exists("out#/#.01/comp.0001.exr"));
+    EXPECT_EQ(keyline({"render", "graph.json", "--frames", "1", "--output", "r=take#1/o.exr"}).status, 0);
+    EXPECT_TRUE(exists("take#1/o.exr"));
+}
+
+// Taken as they stand, these would make files that nobody looks for.
+TEST_F(Frames, NamesOfOtherProgramsAndSystemsAreRefused) {
+    for (const char* name :
+         {"~/out.exr", "$SHOW/out.exr", "out.$F4.exr", "out.@@@@.exr", "out.%V.exr", R"(D:\\show\\out.exr)",
+          "D:/show/out.exr", R"(\\\\server\\out.exr)", R"(show\\out.exr)", R"(out\u0000.exr)"}) {
+        SCOPED_TRACE(name);
+        graph(fmt::format(R"("c": {{ "type": "constant", "color": [0, 0, 0], "size": [4, 4] }},
+                             "out": {{ "type": "write", "in": "c", "file": "{}" }})",
+                          name));
+        for (const char* command : {"check", "plan", "render"}) {
+            const Outcome run = keyline({command, "graph.json"});
+            EXPECT_EQ(run.status, 2) << run.err;
+            EXPECT_THAT(run.err, HasSubstr("graph.json:3:"));
+        }
+        EXPECT_THAT(files(), ElementsAre("graph.json"));
+    }
+}
+
 TEST_F(Frames, AFailedFrameEndsTheRun) {
     for (const int frame : {1, 3}) plate(frame);
     graph(kSequence);
@@ -90,6 +180,15 @@ TEST_F(Frames, AFailedFrameEndsTheRun) {
     EXPECT_THAT(run.err, HasSubstr("plate.0002.exr"));
     EXPECT_TRUE(exists("out/0001/comp.0001.exr"));
     EXPECT_FALSE(exists("out/0003/comp.0003.exr"));
+}
+
+TEST_F(Frames, FramesThatWereNotTriedAreNamed) {
+    for (const int frame : {1, 3, 4}) plate(frame);
+    graph(kSequence);
+    const Outcome run = render("1-4,9", {"--threads", "1"});
+    EXPECT_EQ(run.status, 3);
+    EXPECT_THAT(run.err, HasSubstr("1 of 5 frames done, 0 skipped, 1 failed"));
+    EXPECT_THAT(run.err, HasSubstr("not tried: 3, 4, 9\n"));
 }
 
 TEST_F(Frames, KeepGoingRendersTheOthers) {

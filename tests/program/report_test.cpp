@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 // The commands that tell: check, plan, nodes, info, --version, --help.
 
@@ -30,6 +31,47 @@ protected:
     }
 };
 
+TEST_F(Report, CheckShowsWhatEachNodeMakes) {
+    sequence_graph();
+    const Outcome run = keyline({"check", "graph.json", "--streams"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    std::vector<std::string> lines;
+    std::istringstream text(run.out);
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    ASSERT_EQ(lines.size(), 6U) << run.out;
+    EXPECT_EQ(lines[0], "frame 7");
+    EXPECT_THAT(lines[1], testing::MatchesRegex("node   type        display +data +digest +channels"));
+    EXPECT_THAT(lines[2],
+                testing::StartsWith("r      read        480 × 270 at (0, 0)  480 × 270 at (0, 0)  "));
+    EXPECT_THAT(lines[5], HasSubstr("  edge computed")) << run.out;
+}
+
+TEST_F(Report, CheckShowsItAsJson) {
+    sequence_graph();
+    const auto shown = [&](const std::string& gamma) {
+        const Outcome run = keyline(
+            {"check", "graph.json", "--streams", "--json", "--frames", "7,9", "--set", "y.gamma=" + gamma});
+        EXPECT_EQ(run.status, 0) << run.err;
+        return Json::parse(run.out);
+    };
+    const Json frames = shown("1.5");
+    ASSERT_EQ(frames.size(), 2U);
+    EXPECT_EQ(frames[0]["frame"], 7);
+    const Json &read = frames[0]["nodes"][0], &edges = frames[0]["nodes"][3];
+    EXPECT_EQ(read["id"], "r");
+    EXPECT_EQ(read["type"], "read");
+    EXPECT_EQ(read["dataWindow"], (Json{{"x", 0}, {"y", 0}, {"width", 480}, {"height", 270}}));
+    EXPECT_EQ(read["channels"][0]["type"], "half");
+    EXPECT_EQ(edges["channels"][0]["type"], "computed");
+    EXPECT_EQ(edges["channels"][0]["madeBy"], "edges");
+    EXPECT_NE(edges["digest"], frames[1]["nodes"][3]["digest"]);
+    EXPECT_EQ(frames, shown("1.5")) << "digests are the same in every run";
+    const Json other = shown("2")[0]["nodes"];
+    EXPECT_EQ(other[0]["digest"], read["digest"]);
+    EXPECT_NE(other[3]["digest"], edges["digest"]);
+    EXPECT_EQ(keyline({"check", "graph.json", "--json"}).status, 2);
+}
+
 TEST_F(Report, CheckSaysWhatItLookedAt) {
     sequence_graph();
     const Outcome run = keyline({"check", "graph.json"});
@@ -46,6 +88,26 @@ TEST_F(Report, CheckLooksAtAllFramesGiven) {
     EXPECT_EQ(run.status, 3);
     EXPECT_EQ(run.out, "");
     EXPECT_THAT(run.err, HasSubstr("in.0008.exr: no such file; on disk are frames 7, 9"));
+}
+
+TEST_F(Report, CheckLooksAtEveryGraphGiven) {
+    sequence_graph();
+    write("wrong.json", "{}");
+    const Outcome run = keyline({"check", "wrong.json", "graph.json", "missing.json"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, "graph.json: ok: 5 nodes, 1 output, frame 7\n");
+    EXPECT_THAT(run.err, HasSubstr("wrong.json:1:1: error: "));
+    EXPECT_THAT(run.err, HasSubstr("'missing.json'"));
+}
+
+TEST_F(Report, CheckReadsStandardInput) {
+    sequence_graph();
+    RunOptions options;
+    options.in = folder() / "graph.json";
+    EXPECT_EQ(keyline({"check", "-"}, options).out, "-: ok: 5 nodes, 1 output, frame 7\n");
+    write("wrong.json", "{\n  1");
+    options.in = folder() / "wrong.json";
+    EXPECT_THAT(keyline({"check", "-"}, options).err, testing::StartsWith("-:2:3: error: "));
 }
 
 TEST_F(Report, AProfileIsATraceAndATable) {
@@ -98,7 +160,7 @@ TEST_F(Report, PlanTellsSweepsWithoutWriting) {
     for (const char* text : {"frame 7: 2 sweeps on 3 threads", "input in.0007.exr, node 'r' (read)",
                              "3 of 22 channels: ViewLayer.Combined: R G B half",
                              "480 × 270 at (0, 0), 40 tiles of 64 × 64", "gather   node 'edges' (hysteresis)",
-                             "apply    node 'edges' (hysteresis)", "write    out.0007.exr"})
+                             "compute  node 'edges' (hysteresis)", "write    out.0007.exr"})
         EXPECT_THAT(run.out, HasSubstr(text));
     EXPECT_FALSE(exists("out.0007.exr"));
 }
@@ -134,10 +196,11 @@ TEST_F(Report, NodesAsMarkdownHasEveryTypeAndParameter) {
     const std::string text = keyline({"nodes", "--markdown"}).out;
     const Json schema = Json::parse(keyline({"nodes", "--schema"}).out);
     for (const auto& [name, type] : schema.at("$defs").items()) {
-        if (name == "variable") continue;
+        // Others are kinds of values.
+        if (!type.contains("properties") || !type.at("properties").contains("type")) continue;
         EXPECT_THAT(text, HasSubstr("\n### " + name + "\n"));
         for (const auto& [field, unused] : type.at("properties").items()) {
-            if (field == "type" || field == "about") continue;
+            if (field == "type" || field == "about" || field == "enabled") continue;  // of every node
             EXPECT_THAT(text, HasSubstr("| `" + field + "` |"));
         }
     }
@@ -167,6 +230,28 @@ TEST_F(Report, InfoTellsAPlate) {
     for (const char* text : {"openexr, 1 part", "480 × 270 at (0, 0)", "scanline, zip",
                              "ViewLayer.Combined: R G B A half", "ViewLayer.Depth: Z float", "cryptomatte/"})
         EXPECT_THAT(run.out, HasSubstr(text));
+}
+
+// Names in files are others' text: what a terminal would obey is shown, not sent.
+TEST_F(Report, NoFileSpeaksToTheTerminal) {
+    graph(R"("c": { "type": "constant", "color": [0, 0, 0], "size": [4, 4] },
+             "out": { "type": "write", "in": "c", "file": "a\u001b[31m.exr",
+                      "layers": { "\u001b[31mred\u0007": "c", "turned\u202eback": "c" } })");
+    ASSERT_EQ(keyline({"render", "graph.json"}).status, 0);
+    graph(R"("r": { "type": "read", "file": "a\u001b[31m.exr" },
+             "out": { "type": "write", "in": "r", "file": "b\u001b[32m.exr" })");
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"info", "a\x1b[31m.exr"},
+                                               {"plan", "graph.json"},
+                                               {"check", "graph.json", "--set", "out.in=r:nothing"},
+                                               {"render", "graph.json", "--set", "out.file=b\x1b[32m.jpg"}}) {
+        const Outcome run = keyline(arguments);
+        SCOPED_TRACE(arguments[0]);
+        EXPECT_THAT(run.out + run.err, HasSubstr("\\x1b["));
+        // The last turns the direction of text.
+        // NOLINTNEXTLINE(misc-misleading-bidirectional)
+        for (const char* raw : {"\x1b", "\a", "\u202e"}) EXPECT_THAT(run.out + run.err, Not(HasSubstr(raw)));
+    }
 }
 
 TEST_F(Report, InfoAsJson) {
@@ -209,6 +294,21 @@ TEST_F(Report, HelpIsAResult) {
     }
     EXPECT_THAT(keyline({"render", "--help"}).out, HasSubstr("--keep-going"));
     EXPECT_THAT(keyline({"check", "--help"}).out, Not(HasSubstr("--keep-going")));
+}
+
+TEST_F(Report, HelpIsACommandToo) {
+    EXPECT_EQ(keyline({"help"}).out, keyline({"--help"}).out);
+    EXPECT_EQ(keyline({"help", "render"}).out, keyline({"render", "--help"}).out);
+    EXPECT_THAT(keyline({"help", "rendr"}).err, HasSubstr("did you mean 'render'?"));
+}
+
+// In Keyline's own words: arguments are named for what they are.
+TEST_F(Report, HelpSpeaksPlainly) {
+    for (const char* command : {"render", "check", "plan", "nodes", "info"}) {
+        const std::string help = keyline({command, "--help"}).out;
+        for (const char* leftover : {"REQUIRED", "Excludes", "Positionals", "SUBCOMMAND"})
+            EXPECT_THAT(help, Not(HasSubstr(leftover)));
+    }
 }
 
 }  // namespace

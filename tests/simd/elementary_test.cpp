@@ -122,5 +122,19 @@ TEST(SinCos, IsExactAtQuarterTurns) {
     EXPECT_TRUE(std::isnan(elementary::sin_cos_degrees(kNan).cos));
 }
 
+TEST(Probit, UndoesTheNormalDistribution) {
+    double worst = 0;
+    for (double x = -6.3; x <= 6.3; x += 0.001) {
+        const double p = std::erfc(-x / std::sqrt(2.0)) / 2;
+        if (p < 1e-10 || p > 1 - 1e-10) continue;
+        // Near 1 the steps between doubles are wide.
+        const double step = 1e-16 / (std::exp(-x * x / 2) / std::sqrt(2 * std::acos(-1.0)));
+        worst = std::max(worst, (std::fabs(elementary::probit(p) - x) - step) / std::max(std::fabs(x), 0.1));
+    }
+    EXPECT_LT(worst, 2e-7);
+    EXPECT_EQ(elementary::probit(0.5), 0);
+    EXPECT_EQ(elementary::probit(0.25), -elementary::probit(0.75));
+}
+
 }  // namespace
 }  // namespace keyline

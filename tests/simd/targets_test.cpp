@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/targets.h"
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/draw.h"
 
-#include "engine/resolve.h"
+#include "engine/node/registry.h"
+#include "engine/plan/resolve.h"
+#include "tests/support/strokes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +21,21 @@ std::optional<Json> known_word(const std::string& type, const std::string& field
     if (type == "colorspace" && field == "to") return Json("ACEScg");
     if (type == "laplacian" && field == "neighbours") return Json(8);
     return {};
+}
+
+bool takes_data(const TypeInfo& type) {
+    return (type.kind == Kind::kInput && type.takes.kind == Takes::Kind::kData) ||
+           std::ranges::any_of(type.items, takes_data);
+}
+
+// Some node that makes the kind of data that a port takes, and not of other data.
+const NodeType& giver_of(const Takes& takes) {
+    register_random_strokes();
+    for (const auto& [name, type] : registry().types())
+        if (!type.gives.empty() && (!takes.data || type.gives == takes.data) &&
+            std::ranges::none_of(type.fields, takes_data, &FieldInfo::type) && !has_files(type))
+            return type;
+    fail(ErrorKind::kInternal, "no node gives what a port takes");
 }
 
 bool is_text(const TypeInfo& type) { return type.kind == Kind::kString || type.kind == Kind::kFile; }
@@ -50,7 +67,7 @@ std::vector<std::string> Draw::channels(const Takes& takes) {
     switch (takes.kind) {
         case Takes::Kind::kAny:
             if (one_in(3)) return {"A", "U", "V"};
-            if (one_in(3)) return {"r", "g", "b", "a"};  // of a Cryptomatte
+            if (one_in(3)) return {"Id00.r", "Id00.g", "Id00.b", "Id00.a"};  // of a Cryptomatte
             return one_in(2) ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "G", "B", "A"};
         case Takes::Kind::kColour:
             names = {"R", "G", "B"};
@@ -59,6 +76,7 @@ std::vector<std::string> Draw::channels(const Takes& takes) {
         case Takes::Kind::kMatte:
             if (takes.preferred && one_in(2)) return {takes.preferred, "A"};
             return one_in(2) ? std::vector<std::string>{"Y"} : std::vector<std::string>{"R", "A"};
+        case Takes::Kind::kData: break;
         case Takes::Kind::kNamed:
             for (const char* name : takes.names)
                 if (name) names.emplace_back(name);
@@ -69,8 +87,11 @@ std::vector<std::string> Draw::channels(const Takes& takes) {
 }
 
 Image Draw::image(const Takes& takes, const Rect& window) {
-    Image image = noise(window, channels(takes), static_cast<unsigned>(random_()), -0.25F, 1);
-    image.display = one_in(2) ? window : Rect{0, 0, 30, 20};
+    // One after the other: compilers evaluate arguments in orders of their own, and draws must be the same.
+    const std::vector<std::string> names = channels(takes);
+    const auto seed = static_cast<unsigned>(random_());
+    Image image = noise(window, names, seed, -0.25F, 1);
+    image.display = one_in(2) ? window : translate({-5, 4, 25, 24}, window.x0, window.y0);
     const bool coarse = one_in(3);
     for (Image::Channel& c : image.channels) {
         if (one_in(4)) c.type = SampleType::kHalf;
@@ -148,7 +169,9 @@ std::optional<Json> Draw::value(const TypeInfo& type, const NameInput& input) {
 }
 
 ResolvedFrame NodeCase::resolve(bool leave_out_identities) const {
-    return resolve_graph(nodes, {id}, inputs, 1, leave_out_identities);
+    const std::vector<std::string> ids{id}, none;
+    return resolve_graph(nodes, gives_data ? none : ids, inputs, 1, leave_out_identities,
+                         gives_data ? ids : none);
 }
 
 std::string NodeCase::text() const {
@@ -162,9 +185,16 @@ std::string NodeCase::text() const {
 
 NodeCase draw_case(const NodeType& type, Draw& draw, const std::function<Rect(Draw&)>& window) {
     std::optional<Failure> last;
-    for (int tries = 0; tries < 100; ++tries) {
+    for (int tries = 0; tries < 1000; ++tries) {
         NodeCase c;
-        const auto input = [&](const TypeInfo& t) {
+        int data = 0;
+        c.gives_data = !type.gives.empty();
+        const Draw::NameInput input = [&](const TypeInfo& t) {
+            if (t.takes.kind == Takes::Kind::kData) {
+                const std::string name = fmt::format("data{}", data++);
+                c.nodes.set(name, draw.parameters(giver_of(t.takes), input));
+                return name;
+            }
             const std::string name = fmt::format("image{}", c.inputs.size());
             for (int frame = 0; frame < 3; ++frame)
                 c.inputs[name].push_back(draw.image(t.takes, window ? window(draw) : draw.window()));

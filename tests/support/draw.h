@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/node_type.h"
+#include "engine/node/node_type.h"
 #include "tests/support/image.h"
 #include "tests/support/json.h"
 #include "tests/support/run.h"
@@ -54,6 +54,7 @@ struct NodeCase {
     Json nodes;
     std::string id = "node";
     Sequences inputs;
+    bool gives_data = false;
 
     ResolvedFrame resolve(bool leave_out_identities = true) const;
     std::string text() const;  // for messages

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/image.h"
 
-#include "engine/bands.h"
-#include "engine/channels.h"
+#include "engine/base/channels.h"
 #include "engine/io/image_sink.h"
 #include "engine/io/image_source.h"
+#include "engine/run/bands.h"
 #include "engine/simd/half.h"
 
 #include <algorithm>
@@ -180,9 +180,9 @@ Image read_exr(const std::string& file) {
             float* out = part.channels[0].samples.data();
             const std::byte* in = memory[c].data();
             if (planes[c].type == SampleType::kHalf)
-                half_to_float(reinterpret_cast<const uint16_t*>(in), out, samples);
+                simd::half_to_float(reinterpret_cast<const uint16_t*>(in), out, samples);
             else if (planes[c].type == SampleType::kUint)
-                uint_to_float(reinterpret_cast<const uint32_t*>(in), out, samples);
+                simd::uint_to_float(reinterpret_cast<const uint32_t*>(in), out, samples);
             else
                 std::memcpy(out, in, samples * sizeof(float));
             image.channels.push_back({group.channels[c].name, planes[c].type,
@@ -192,6 +192,17 @@ Image read_exr(const std::string& file) {
     }
     return image;
 }
+
+namespace {
+
+// Inside the engine the sample of an integer channel is the integer's bits.
+void as_integer_bits(std::vector<float>& samples) {
+    std::vector<uint32_t> integers(samples.size());
+    simd::float_to_uint(samples.data(), integers.data(), samples.size());
+    std::memcpy(samples.data(), integers.data(), samples.size() * sizeof(float));
+}
+
+}  // namespace
 
 void write_exr(const std::string& file, const Image& image) {
     SinkSpec spec{image.display, image.window, {}, image.metadata, Depth::kAuto, "zip"};
@@ -206,7 +217,8 @@ void write_exr(const std::string& file, const Image& image) {
             Bands& band =
                 bands.emplace_back(chunk, std::vector{sink->channels()[c].type}, chunk.y0, chunk.height());
             band.allocate(0, true);
-            const Image part = cropped(only(image, {image.channels[c].name}), chunk);
+            Image part = cropped(only(image, {image.channels[c].name}), chunk);
+            if (sink->channels()[c].type == SampleType::kUint) as_integer_bits(part.channels[0].samples);
             band.store(0, {part.channels[0].samples.data(), chunk.width(), chunk, chunk});
             planes.push_back(band.plane(0, 0));
         }
@@ -237,7 +249,13 @@ Image largest_within(const Image& image, int reach) {
     });
 }
 
-bool same(const Image& a, const Image& b) { return static_cast<bool>(compare_images("", "", a, b)); }
+bool same(const Image& a, const Image& b) {
+    const auto same_bits = [](const Image::Channel& x, const Image::Channel& y) {
+        return std::ranges::equal(x.samples, y.samples, {}, std::bit_cast<uint32_t, float>,
+                                  std::bit_cast<uint32_t, float>);
+    };
+    return compare_images("", "", a, b) && std::ranges::equal(a.channels, b.channels, same_bits);
+}
 
 std::ostream& operator<<(std::ostream& out, const Image& image) {
     out << "image, display " << image.display << ", data " << image.window << '\n';

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/geometry.h"
-#include "engine/image.h"
-#include "engine/metadata.h"
+#include "engine/base/geometry.h"
+#include "engine/base/image.h"
+#include "engine/base/metadata.h"
 
 #include <initializer_list>
 #include <iosfwd>
@@ -90,7 +90,7 @@ Image plate(const std::string& layer = "Combined", int frame = 1);
 // By pixel: the largest absolute value of all channels within `reach` pixels, NaN passed over.
 Image largest_within(const Image& image, int reach);
 
-// The same windows, channels and bits (any NaN equals any other).
+// The same windows, channels and bits, of NaN too.
 bool same(const Image& a, const Image& b);
 
 // For failure messages: the windows, and small channels as numbers.
@@ -98,7 +98,7 @@ std::ostream& operator<<(std::ostream& out, const Image& image);
 
 }  // namespace keyline::testing
 
-// The same windows, channels and samples, bit for bit; a difference is told by channel and pixel.
+// The same windows, channels and samples, bit for bit (any NaN equals any other); a difference is told.
 #define EXPECT_IMAGE(actual, expected) \
     EXPECT_PRED_FORMAT2(::keyline::testing::compare_images, actual, expected)
 // Samples within `tolerance` of each other.

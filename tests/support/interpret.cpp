@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/interpret.h"
 
-#include "engine/demand.h"
+#include "engine/plan/demand.h"
 #include "engine/simd/half.h"
 
 #include <cstring>
@@ -25,18 +25,22 @@ struct Samples {
 
 class Interpreter {
 public:
-    explicit Interpreter(const ResolvedFrame& frame) : frame_(frame) {
+    explicit Interpreter(const ResolvedFrame& frame) {
         for (const Op& op : frame.ops) {
             std::vector<Samples>& outputs = values_.emplace_back();
             for (const ValueInfo& v : op.outputs) outputs.emplace_back(v.window);
+            data_.push_back(op.makes_data() ? datum(op) : nullptr);
             if (op.source)
                 decode(op, outputs);
-            else if (!op.outputs.front().window.empty())
+            else if (op.operation && !op.outputs.front().window.empty())
                 compute(op, outputs);
         }
     }
 
+    std::vector<std::shared_ptr<const Datum>> data() { return std::move(data_); }
+
     Image picture(const SinkRequest& request) {
+        if (request.stream.is_data()) return {};
         Image image(request.stream.window, std::vector<std::string>{});
         image.display = request.stream.display;
         image.metadata = *request.stream.metadata;
@@ -70,10 +74,8 @@ private:
 
     static void to_floats(const std::byte* in, SampleType type, float* out, std::size_t n) {
         if (type == SampleType::kHalf)
-            half_to_float(reinterpret_cast<const uint16_t*>(in), out, n);
-        else if (type == SampleType::kUint)
-            uint_to_float(reinterpret_cast<const uint32_t*>(in), out, n);
-        else if (n > 0)  // memcpy takes no null pointer, of no bytes either
+            simd::half_to_float(reinterpret_cast<const uint16_t*>(in), out, n);
+        else if (n > 0)  // of an integer too the bits; memcpy takes no null pointer, of no bytes either
             std::memcpy(out, in, n * sizeof(float));
     }
 
@@ -88,53 +90,69 @@ private:
         return out;
     }
 
-    void compute(const Op& op, std::vector<Samples>& outputs) {
-        const Rect& window = op.outputs.front().window;
-        const bool whole_frame = op.operation->reduction() != nullptr;
-        std::vector<Samples> inputs;
+    // What an operation is given, each link over the rectangle that rect_of(slot) says.
+    struct Given {
+        std::vector<Samples> samples;
         std::vector<View> views;
         std::vector<Inputs::Range> slots;
+        std::vector<const Datum*> data;
+        Inputs inputs() const { return {views, slots, data}; }
+    };
+    template <class RectOf>
+    Given given(const Op& op, const RectOf& rect_of) {
+        Given g;
         for (std::size_t s = 0; s < op.links.size(); ++s) {
             const Link& link = op.links[s];
-            const Rect rect = whole_frame ? window : view_of_link(op, static_cast<int>(s), window);
-            slots.push_back({inputs.size(), link.values.size()});
-            for (const ValueRef v : link.values) inputs.push_back(gathered(v, rect, link.window));
+            const Rect rect = link.values.empty() ? Rect{} : rect_of(static_cast<int>(s));
+            g.slots.push_back({g.samples.size(), link.values.size()});
+            g.data.push_back(link.datum.op < 0 ? nullptr
+                                               : data_[static_cast<std::size_t>(link.datum.op)].get());
+            for (const ValueRef v : link.values) g.samples.push_back(gathered(v, rect, link.window));
         }
         for (std::size_t s = 0, i = 0; s < op.links.size(); ++s)
-            for (std::size_t k = 0; k < slots[s].count; ++k, ++i)
-                views.push_back(inputs[i].view(op.links[s].window));
+            for (std::size_t k = 0; k < g.slots[s].count; ++k, ++i)
+                g.views.push_back(g.samples[i].view(end_of_link(op, static_cast<int>(s))));
+        return g;
+    }
+
+    void compute(const Op& op, std::vector<Samples>& outputs) {
+        const Rect& window = op.outputs.front().window;
+        const Given g = given(op, [&](int slot) { return view_of_link(op, slot, window); });
         std::vector<MutView> results;
         for (Samples& o : outputs) results.push_back(o.view(o.window));
         Scratch scratch;
-        if (whole_frame)
-            reduce(*op.operation->reduction(), Inputs(views, slots), window, results);
-        else
-            op.operation->compute(Inputs(views, slots), results, scratch);
+        op.operation->compute(g.inputs(), results, scratch);
     }
 
-    // One block that is the whole frame.
-    static void reduce(const Reduction& reduction, const Inputs& in, const Rect& window, Outputs out) {
+    // A gather sees one block, which is the whole frame.
+    std::shared_ptr<const Datum> datum(const Op& op) {
+        const Rect& window = op.outputs.front().window;
+        const Given g = given(op, [&](int) { return window; });
+        if (op.derivation) return op.derivation->derive(g.inputs());
         Scratch scratch;
-        const std::unique_ptr<Memory> state = reduction.start(window);
-        for (int round = 0; round < reduction.rounds(); ++round) {
-            const std::unique_ptr<Memory> partial = reduction.map(*state, in, window, scratch);
-            reduction.fold(*state, *partial);
-            reduction.finish(*state);
+        const std::unique_ptr<Gather::State> state = op.gather->start(window);
+        for (int round = 1;; ++round) {
+            if (!window.empty())
+                op.gather->fold(*state, *op.gather->map(*state, g.inputs(), window, scratch));
+            if (round == op.gather->rounds()) return op.gather->finish(*state);
+            op.gather->end_round(*state);
         }
-        reduction.apply(*state, out, scratch);
     }
 
-    const ResolvedFrame& frame_;
-    std::vector<std::vector<Samples>> values_;  // by operation and output
+    std::vector<std::vector<Samples>> values_;        // by operation and output
+    std::vector<std::shared_ptr<const Datum>> data_;  // by operation
 };
 
 }  // namespace
 
-std::vector<Image> interpret(const ResolvedFrame& frame) {
+Interpretation interpret_all(const ResolvedFrame& frame) {
     Interpreter interpreter(frame);
-    std::vector<Image> out;
-    for (const Sink& sink : frame.sinks) out.push_back(interpreter.picture(sink.request));
+    Interpretation out;
+    for (const Sink& sink : frame.sinks) out.images.push_back(interpreter.picture(sink.request));
+    out.data = interpreter.data();
     return out;
 }
+
+std::vector<Image> interpret(const ResolvedFrame& frame) { return interpret_all(frame).images; }
 
 }  // namespace keyline::testing

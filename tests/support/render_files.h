@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/graph.h"
-#include "engine/render.h"
+#include "engine/graph/graph.h"
+#include "engine/run/render.h"
 #include "tests/support/run.h"
 
 #include <atomic>
@@ -23,7 +23,7 @@ public:
     void error(const Error& e) override { errors.push_back(e.text()); }
 };
 
-inline Rendered render_files(const Json& nodes, RenderOptions options) {
+inline Rendered render_files(const Json& nodes, const RenderOptions& options) {
     Rendered out;
     Diagnostics diagnostics;
     const Json graph{{"keyline", 1}, {"nodes", nodes}};
@@ -31,7 +31,7 @@ inline Rendered render_files(const Json& nodes, RenderOptions options) {
     for (const Error& e : diagnostics.errors()) out.error(e);
     if (!loaded) return out;
     const std::atomic<bool> cancel = false;
-    out.status = render(*loaded, options, out, cancel).status;
+    out.status = render(*loaded, options, out, cancel).status();
     return out;
 }
 

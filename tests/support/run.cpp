@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/run.h"
 
-#include "engine/execute.h"
-#include "engine/node_adaptor.h"
-#include "engine/registry.h"
-#include "engine/resolve.h"
+#include "engine/node/node_adaptor.h"
+#include "engine/node/registry.h"
+#include "engine/plan/planner.h"
+#include "engine/plan/resolve.h"
+#include "engine/run/execute.h"
 #include "engine/simd/half.h"
 
 #include <cstring>
@@ -20,6 +21,7 @@ namespace {
 struct Shelf {
     std::vector<Image> images;
     std::vector<Image> written;
+    std::vector<std::shared_ptr<const Datum>> data;
 };
 
 Shelf& shelf() {
@@ -62,9 +64,9 @@ public:
 private:
     static void store(const float* from, std::byte* to, SampleType type, std::size_t n) {
         if (type == SampleType::kHalf)
-            float_to_half(from, reinterpret_cast<uint16_t*>(to), n);
+            simd::float_to_half(from, reinterpret_cast<uint16_t*>(to), n);
         else if (type == SampleType::kUint)
-            float_to_uint(from, reinterpret_cast<uint32_t*>(to), n);
+            simd::float_to_uint(from, reinterpret_cast<uint32_t*>(to), n);
         else
             std::memcpy(to, from, n * sizeof(float));
     }
@@ -82,20 +84,19 @@ public:
         for (ChannelInfo& c : channels_) {
             image_.channels.push_back(
                 {c.name, c.type, std::vector<float>(static_cast<std::size_t>(spec.data_window.area()))});
-            c.type = SampleType::kFloat;
+            if (c.type != SampleType::kUint) c.type = SampleType::kFloat;
         }
     }
     Rect region() const override { return image_.window; }
     int chunk_height() const override { return 9; }
     const std::vector<ChannelInfo>& channels() const override { return channels_; }
-    std::size_t chunk_memory() const override { return 0; }
 
     EncodedChunk encode(int index, std::span<const Plane> planes) const override {
         for (std::size_t c = 0; c < planes.size(); ++c) {
             const Rect& rect = planes[c].rect;
             for (int y = rect.y0; y < rect.y1; ++y)
-                std::memcpy(&image_.at(channels_[c].name, rect.x0, y), planes[c].at(rect.x0, y),
-                            static_cast<std::size_t>(rect.width()) * sizeof(float));
+                take(planes[c].at(rect.x0, y), planes[c].type, &image_.at(channels_[c].name, rect.x0, y),
+                     static_cast<std::size_t>(rect.width()));
         }
         return {index, {}};
     }
@@ -103,6 +104,13 @@ public:
     void finish() override {}
 
 private:
+    static void take(const std::byte* from, SampleType type, float* to, std::size_t n) {
+        if (type == SampleType::kUint)
+            simd::uint_to_float(reinterpret_cast<const uint32_t*>(from), to, n);
+        else
+            std::memcpy(to, from, n * sizeof(float));
+    }
+
     Image& image_;
     std::vector<ChannelInfo> channels_;
 };
@@ -157,11 +165,45 @@ struct CaptureNode {
     const std::size_t place;
 };
 
+class DataCapture final : public DataSink {
+public:
+    explicit DataCapture(std::shared_ptr<const Datum>& to) : to_(to) {}
+    void write(const std::shared_ptr<const Datum>& datum) override { to_ = datum; }
+
+private:
+    std::shared_ptr<const Datum>& to_;
+};
+
+struct CaptureDataNode {
+    static constexpr Info info{"capture_data", "Hands a datum to the test."};
+    struct Params {
+        Input in;
+        int place = 0;
+        static constexpr auto fields =
+            declare(input(&Params::in, "in", "The datum.", any_data()),
+                    field(&Params::place, "place", "Which of the data written it is."));
+    };
+    explicit CaptureDataNode(const Params& p) : in(p.in), place(static_cast<std::size_t>(p.place)) {}
+
+    void write(Builder& builder) const {
+        SinkRequest request;
+        request.stream = builder.input(in);
+        request.create_for_data = [place = place] {
+            return std::make_unique<DataCapture>(shelf().data[place]);
+        };
+        builder.add_sink(std::move(request));
+    }
+
+    const Input in;
+    const std::size_t place;
+};
+
 void register_nodes() {
     static std::once_flag once;
     std::call_once(once, [] {
         registry().add(make_node_type<MemoryNode>());
         registry().add(make_node_type<CaptureNode>());
+        registry().add(make_node_type<CaptureDataNode>());
     });
 }
 
@@ -174,10 +216,11 @@ void register_nodes() {
 }  // namespace
 
 ResolvedFrame resolve_graph(const Json& nodes, const std::vector<std::string>& ids, const Sequences& inputs,
-                            int frame, bool leave_out_identities) {
+                            int frame, bool leave_out_identities, const std::vector<std::string>& data_ids) {
     register_nodes();
     shelf() = {};
     shelf().written.resize(ids.size());
+    shelf().data.resize(data_ids.size());
     Json all = nodes;
     for (const auto& [name, images] : inputs) {
         std::vector<Json> indices;
@@ -189,6 +232,9 @@ ResolvedFrame resolve_graph(const Json& nodes, const std::vector<std::string>& i
     }
     for (std::size_t i = 0; i < ids.size(); ++i)
         all.set(fmt::format("captured{}", i), {{"type", "capture"}, {"in", ids[i]}, {"place", i}});
+    for (std::size_t i = 0; i < data_ids.size(); ++i)
+        all.set(fmt::format("captured-data{}", i),
+                {{"type", "capture_data"}, {"in", data_ids[i]}, {"place", i}});
     const Json graph{{"keyline", 1}, {"nodes", all}};
     Diagnostics diagnostics;
     const auto loaded = Graph::parse(graph.text(), "test.json", ".", {}, diagnostics);
@@ -205,6 +251,8 @@ std::vector<Image> render(Plan plan) {
     Executor(threads).run(std::make_unique<FrameRun>(std::move(plan)), false);
     return shelf().written;
 }
+
+std::vector<std::shared_ptr<const Datum>> rendered_data() { return shelf().data; }
 
 Image run_graph(const Json& nodes, const std::string& id, const Sequences& inputs,
                 const RunOptions& options) {

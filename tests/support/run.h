@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "engine/error.h"
+#include "engine/base/error.h"
 #include "tests/support/image.h"
 #include "tests/support/json.h"
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 //                  ascii({".2.", "222", ".2."}));
 
 namespace keyline {
+class Datum;
 struct Plan;
 struct ResolvedFrame;
 }  // namespace keyline
@@ -47,10 +49,14 @@ Image run_graph(const Json& nodes, const std::string& id, const Sequences& input
 // What such a run says that went wrong; "" where it went well.
 std::string error_of(const std::string& type, const Json& params, const Image& in);
 
-// The same in steps, for tests of the engine itself: the results of several nodes at once.  At most one such
-// frame exists at a time, as its images lie in one place.
+// The same in steps, for tests of the engine itself: the results of several nodes at once, those of
+// `data_ids` data.  At most one such frame exists at a time, as its images lie in one place.
 ResolvedFrame resolve_graph(const Json& nodes, const std::vector<std::string>& ids, const Sequences& inputs,
-                            int frame = 1, bool leave_out_identities = true);
+                            int frame = 1, bool leave_out_identities = true,
+                            const std::vector<std::string>& data_ids = {});
 std::vector<Image> render(Plan plan);
+
+// The data of the last render, in the order of `data_ids`.
+std::vector<std::shared_ptr<const Datum>> rendered_data();
 
 }  // namespace keyline::testing

@@ -5,11 +5,11 @@
 //     posterise GRAPH.json PLATE.exr OUT.exr
 
 #include <cmath>
-#include <engine/graph.h>
-#include <engine/node_adaptor.h>
-#include <engine/pixel_loop.h>
-#include <engine/registry.h>
-#include <engine/render.h>
+#include <engine/graph/graph.h>
+#include <engine/node/node_adaptor.h>
+#include <engine/node/pixel_loop.h>
+#include <engine/node/registry.h>
+#include <engine/run/render.h>
 #include <iostream>
 
 namespace {
@@ -55,7 +55,7 @@ int run(const char* file, const char* plate, const char* out) {
     options.frames = {1};
     Console console;
     const std::atomic<bool> cancel = false;
-    return render(*graph, options, console, cancel).status;
+    return render(*graph, options, console, cancel).status();
 }
 
 }  // namespace

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/color/color_builtin.h"
+
+namespace keyline {
+
+// Every matrix and curve is one that OpenColorIO builds in, so that no figure is typed twice and nothing is
+// read from disk.  The reference is linear Rec.709 rather than ACES2065-1: most conversions start or end
+// there, and then go through one matrix instead of two.
+const char* const kBuiltinColorConfig = R"yaml(ocio_profile_version: 2.1
+name: keyline
+description: The config compiled into Keyline.
+environment: {}
+search_path: ""
+strictparsing: true
+luma: [0.2126, 0.7152, 0.0722]
+
+roles:
+  scene_linear: Linear Rec.709 (sRGB)
+  data: Raw
+
+file_rules:
+  - !<Rule> {name: Default, colorspace: scene_linear}
+
+displays:
+  sRGB - Display:
+    - !<View> {name: ACES 1.0 - SDR Video, view_transform: ACES 1.0 - SDR Video, display_colorspace: sRGB - Display}
+    - !<View> {name: Un-tone-mapped, view_transform: Un-tone-mapped, display_colorspace: sRGB - Display}
+    - !<View> {name: Raw, colorspace: Raw}
+
+view_transforms:
+  - !<ViewTransform>
+    name: Un-tone-mapped
+    description: The scene's colours as they are; what is brighter than the display stays brighter.
+    from_scene_reference: !<GroupTransform>
+      children:
+        - !<BuiltinTransform> {style: UTILITY - ACES-AP1_to_LINEAR-REC709_BFD, direction: inverse}
+        - !<BuiltinTransform> {style: UTILITY - ACES-AP1_to_CIE-XYZ-D65_BFD}
+
+  - !<ViewTransform>
+    name: ACES 1.0 - SDR Video
+    description: The ACES 1.0 rendering for a display of 100 nits.
+    from_scene_reference: !<GroupTransform>
+      children:
+        - !<BuiltinTransform> {style: UTILITY - ACES-AP1_to_LINEAR-REC709_BFD, direction: inverse}
+        - !<BuiltinTransform> {style: ACEScg_to_ACES2065-1}
+        - !<BuiltinTransform> {style: ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0}
+
+display_colorspaces:
+  - !<ColorSpace>
+    name: sRGB - Display
+    description: What an sRGB display takes.
+    encoding: sdr-video
+    from_display_reference: !<BuiltinTransform> {style: DISPLAY - CIE-XYZ-D65_to_sRGB}
+
+colorspaces:
+  - !<ColorSpace>
+    name: Linear Rec.709 (sRGB)
+    description: Scene-linear with the primaries of Rec.709 and the white of D65.
+    encoding: scene-linear
+
+  - !<ColorSpace>
+    name: ACEScg
+    description: Scene-linear with the AP1 primaries.
+    encoding: scene-linear
+    to_scene_reference: !<BuiltinTransform> {style: UTILITY - ACES-AP1_to_LINEAR-REC709_BFD}
+
+  - !<ColorSpace>
+    name: ACES2065-1
+    description: Scene-linear with the AP0 primaries, for exchange.
+    encoding: scene-linear
+    to_scene_reference: !<GroupTransform>
+      children:
+        - !<BuiltinTransform> {style: ACEScg_to_ACES2065-1, direction: inverse}
+        - !<BuiltinTransform> {style: UTILITY - ACES-AP1_to_LINEAR-REC709_BFD}
+
+  - !<ColorSpace>
+    name: sRGB - Texture
+    description: The curve of sRGB over the primaries of Rec.709, as pictures for the screen have it.
+    encoding: sdr-video
+    to_scene_reference: !<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055}
+
+  - !<ColorSpace>
+    name: Raw
+    description: Data, never converted.
+    isdata: true
+)yaml";
+
+}  // namespace keyline

@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/coverage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+namespace keyline {
+
+namespace {
+
+constexpr int64_t kOne = kFixedOne;
+constexpr int64_t kWhole = 2 * kOne * kOne;  // twice the area of a pixel
+
+int64_t pixel_of(int64_t fixed) { return fixed >= 0 ? fixed / kOne : -((-fixed + kOne - 1) / kOne); }
+
+// Where a line from a to b is at `at`, of which a is at from and b at to.
+int64_t between(int64_t a, int64_t b, int64_t from, int64_t to, int64_t at) {
+    if (at == from) return a;
+    if (at == to) return b;
+    const double share = static_cast<double>(at - from) / static_cast<double>(to - from);
+    return a + static_cast<int64_t>(std::floor(static_cast<double>(b - a) * share + 0.5));
+}
+
+// An edge, or the part of one that lies in a row of pixels: it runs down, `sign` says which way the loop
+// does.
+struct Edge {
+    int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    int sign = 1;
+
+    int64_t x_at(int64_t y) const { return between(x0, x1, y0, y1, y); }
+    int64_t left() const { return pixel_of(std::min(x0, x1)); }
+    int64_t right() const { return pixel_of(std::max(x0, x1)); }
+    bool is_level() const { return y0 == y1; }
+    Edge part(int64_t from, int64_t to) const { return {x_at(from), from, x_at(to), to, sign}; }
+};
+
+// The row of pixels between x0 and x1 that is being filled: what lies right of the edges added to it, and
+// from the left on where that is covered.
+class Cells {
+public:
+    void begin(int64_t x0, int64_t x1, bool covered) {
+        x0_ = x0;
+        covered_ = covered;
+        const auto n = static_cast<std::size_t>(x1 - x0);
+        area_.assign(n, 0);
+        cover_.assign(n, 0);
+    }
+
+    // Pixel by pixel along the edge.
+    void add(const Edge& e) {
+        const bool to_right = e.x0 <= e.x1;
+        int64_t x = e.x0, y = e.y0;
+        for (int64_t p = pixel_of(x), last = pixel_of(e.x1); p != last; p += to_right ? 1 : -1) {
+            const int64_t border = (to_right ? p + 1 : p) * kOne;
+            const int64_t at = between(e.y0, e.y1, e.x0, e.x1, border);
+            add_to(p, x, border, at - y, e.sign);
+            x = border;
+            y = at;
+        }
+        add_to(pixel_of(e.x1), x, e.x1, e.y1 - y, e.sign);
+    }
+
+    // What is covered of each pixel from `from` to `to`.
+    void sum(int64_t from, int64_t to, std::vector<float>& out) const {
+        int64_t cover = covered_ ? kOne : 0;
+        for (std::size_t i = 0; i < area_.size(); ++i) {
+            cover += cover_[i];
+            const int64_t x = x0_ + static_cast<int64_t>(i), area = 2 * kOne * cover - area_[i];
+            if (x >= from && x < to)
+                out.push_back(static_cast<float>(std::clamp<int64_t>(area, 0, kWhole)) /
+                              static_cast<float>(kWhole));
+        }
+    }
+
+private:
+    void add_to(int64_t pixel, int64_t from, int64_t to, int64_t height, int sign) {
+        const auto i = static_cast<std::size_t>(pixel - x0_);
+        cover_[i] += sign * height;
+        area_[i] += sign * height * (from + to - 2 * pixel * kOne);
+    }
+
+    int64_t x0_ = 0;
+    bool covered_ = false;
+    std::vector<int64_t> area_, cover_;
+};
+
+// Edges whose pixels touch, with the winding on their left.  What they change it by is the same on every
+// height of the row: nothing passes between them and the edges beside.
+class Cluster {
+public:
+    Cluster(std::span<const Edge> edges, int winding, Cells& cells)
+        : edges_(edges), winding_(winding), cells_(cells) {
+        for (const Edge& e : edges) heights_.insert(heights_.end(), {e.y0, e.y1});
+        std::ranges::sort(heights_);
+        heights_.erase(std::unique(heights_.begin(), heights_.end()), heights_.end());
+    }
+
+    // The borders of what is covered go to the cells.  Returns the winding on the right.
+    int add() {
+        int winding = winding_;
+        for (std::size_t i = 1; i < heights_.size(); ++i) winding = add_between(heights_[i - 1], heights_[i]);
+        return winding;
+    }
+
+private:
+    // No edge ends between the heights.  Where some cross, they are parted until they don't, or all is flat.
+    int add_between(int64_t top, int64_t bottom) {
+        parts_.clear();
+        for (const Edge& e : edges_)
+            if (e.y0 <= top && e.y1 >= bottom) parts_.push_back(e.part(top, bottom));
+        std::ranges::sort(parts_, {}, [](const Edge& e) { return std::tuple(e.x0 + e.x1, e.x0, e.sign); });
+        const auto cross = [](const Edge& a, const Edge& b) { return a.x0 > b.x0 || a.x1 > b.x1; };
+        if (bottom - top > 1 && std::ranges::adjacent_find(parts_, cross) != parts_.end()) {
+            const int64_t middle = (top + bottom) / 2;
+            add_between(top, middle);
+            return add_between(middle, bottom);
+        }
+        int winding = winding_;
+        for (const Edge& e : parts_) {
+            const bool covered = winding != 0;
+            winding += e.sign;
+            if (covered == (winding != 0)) continue;
+            Edge border = e;
+            border.sign = covered ? -1 : 1;
+            cells_.add(border);
+        }
+        return winding;
+    }
+
+    std::span<const Edge> edges_;
+    int winding_;
+    Cells& cells_;
+    std::vector<int64_t> heights_;
+    std::vector<Edge> parts_;
+};
+
+class Filler {
+public:
+    explicit Filler(const Rect& window)
+        : window_(window), least_((int64_t{window.x0} - 1) * kOne), most_((int64_t{window.x1} + 1) * kOne) {}
+
+    Coverage fill(const std::vector<Loop>& loops) {
+        for (const Loop& loop : loops)
+            for (std::size_t i = 0; i < loop.size(); ++i) split(loop[i], loop[(i + 1) % loop.size()]);
+        std::ranges::sort(pieces_, {}, [](const Piece& p) { return std::tuple(p.y, p.left); });
+        for (std::size_t i = 0; i < pieces_.size();) {
+            std::size_t end = i;
+            while (end < pieces_.size() && pieces_[end].y == pieces_[i].y) ++end;
+            fill_row(std::span(pieces_).subspan(i, end - i));
+            i = end;
+        }
+        return std::move(out_);
+    }
+
+private:
+    // The part of an edge in one row of pixels, its heights counted from the row's top.
+    struct Piece {
+        int64_t y = 0, left = 0;
+        Edge edge;
+    };
+
+    // An edge by the rows of the window that it crosses.  A level one covers nothing, but what it joins hangs
+    // together.
+    void split(const FixedPoint& a, const FixedPoint& b) {
+        const Edge e = a.y <= b.y ? Edge{a.x, a.y, b.x, b.y, 1} : Edge{b.x, b.y, a.x, a.y, -1};
+        const int64_t first = std::max<int64_t>(pixel_of(e.y0), window_.y0),
+                      last = std::min<int64_t>(pixel_of(std::max(e.y0, e.y1 - 1)), window_.y1 - 1);
+        for (int64_t y = first; y <= last; ++y) {
+            Edge part = e.is_level() ? e : e.part(std::max(e.y0, y * kOne), std::min(e.y1, (y + 1) * kOne));
+            part.y0 -= y * kOne;
+            part.y1 -= y * kOne;
+            clip(y, part);
+        }
+    }
+
+    // Beside the window only the winding counts: there an edge stands upright.
+    void clip(int64_t y, const Edge& e) {
+        if (e.is_level()) return add(y, e);
+        std::array<int64_t, 4> heights{e.y0, e.y0, e.y0, e.y1};
+        if ((e.x0 < least_) != (e.x1 < least_)) heights[1] = between(e.y0, e.y1, e.x0, e.x1, least_);
+        if ((e.x0 < most_) != (e.x1 < most_)) heights[2] = between(e.y0, e.y1, e.x0, e.x1, most_);
+        std::ranges::sort(heights);
+        for (std::size_t i = 1; i < heights.size(); ++i)
+            if (heights[i] > heights[i - 1]) add(y, e.part(heights[i - 1], heights[i]));
+    }
+
+    void add(int64_t y, Edge e) {
+        e.x0 = std::clamp(e.x0, least_, most_);
+        e.x1 = std::clamp(e.x1, least_, most_);
+        pieces_.push_back({y, e.left(), e});
+    }
+
+    void fill_row(std::span<const Piece> row) {
+        const auto y = static_cast<int>(row.front().y);
+        int winding = 0;
+        for (std::size_t i = 0; i < row.size();) {
+            const int64_t left = row[i].left;
+            int64_t right = left;
+            edges_.clear();
+            for (; i < row.size() && row[i].left <= right; ++i) {
+                edges_.push_back(row[i].edge);
+                right = std::max(right, row[i].edge.right());
+            }
+            cells_.begin(left, right + 1, winding != 0);
+            winding = Cluster(edges_, winding, cells_).add();
+            add_span(y, left, right + 1, out_.covers.size());
+            if (winding != 0 && i < row.size()) add_span(y, right + 1, row[i].left, CoverageSpan::kWhole);
+        }
+    }
+
+    void add_span(int y, int64_t x0, int64_t x1, std::size_t first) {
+        x0 = std::max<int64_t>(x0, window_.x0);
+        x1 = std::min<int64_t>(x1, window_.x1);
+        if (x0 >= x1) return;
+        out_.spans.push_back({y, static_cast<int>(x0), static_cast<int>(x1), first});
+        if (first != CoverageSpan::kWhole) cells_.sum(x0, x1, out_.covers);
+    }
+
+    Rect window_;
+    int64_t least_, most_;  // x, in the pixels beside the window
+    std::vector<Piece> pieces_;
+    std::vector<Edge> edges_;
+    Cells cells_;
+    Coverage out_;
+};
+
+}  // namespace
+
+Coverage coverage_of(const std::vector<Loop>& loops, const Rect& window) {
+    return window.empty() ? Coverage{} : Filler(window).fill(loops);
+}
+
+}  // namespace keyline

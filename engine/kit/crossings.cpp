@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/crossings.h"
+
+#include "engine/base/index.h"
+#include "engine/kit/blurred_shares.h"
+#include "engine/simd/elementary.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace keyline {
+
+namespace {
+
+constexpr double kAstray = 0.75;  // pixels between two places of one border that can be true
+constexpr int kAside = 2;         // pixels from a border within which its sides are looked for
+constexpr std::size_t kRight = 1, kDown = 10,
+                      kPlanes = 9;  // outputs: the label, then what there is of a crossing
+
+// Shares nearer to 0 and 1 than this are noise.
+double probit_of(double share) { return elementary::probit(std::clamp(share, 1e-4, 1 - 1e-4)); }
+
+double share_of(const Shares& shares, uint32_t a, uint32_t b) {
+    const double of_a = shares.share(a), of_b = shares.share(b);
+    return of_a / (of_a + of_b);
+}
+
+// Both sides of borders, from the depth beside them.
+class Surfaces {
+public:
+    Surfaces(const BlurredShares& shares, std::span<const View> depth, double pixel_angle)
+        : shares_(shares), depth_(depth.empty() ? nullptr : depth.data()), angle_(pixel_angle) {}
+
+    // Of the object `id` at the border that lies `distance` from the pixel's centre, in the direction
+    // opposite to (dx, dy).
+    Crossing::Side side(uint32_t id, int x, int y, int dx, int dy, double distance) const {
+        Crossing::Side out{id, 0, 0, 1};
+        if (!depth_ || id == 0) return out;
+        for (int i = 0; i <= kAside; ++i) {
+            const int u = x + i * dx, v = y + i * dy;
+            if (!shows(id, u, v)) continue;
+            const double here = near(u, v),
+                         slope = shows(id, u + dx, v + dy) ? here - near(u + dx, v + dy) : 0;
+            const double across = slope_between(id, u + dy, v + dx, u - dy, v - dx, here);
+            out.near = static_cast<float>(std::clamp(here + slope * (i + distance), here / 2, here * 2));
+            out.facing = here > 0 ? facing(slope / here, across / here) : 1.0F;
+            return out;
+        }
+        out.near = static_cast<float>(near(x, y));
+        return out;
+    }
+
+private:
+    // Whether the object has a pixel for itself.
+    bool shows(uint32_t id, int x, int y) const {
+        return depth_->rect.contains(x, y) && shares_.has(x, y) && shares_.sole(x, y) == id;
+    }
+
+    double near(int x, int y) const {
+        if (!depth_->rect.contains(x, y)) return 0;
+        const double z = double{*depth_->at(x, y)};
+        return z > 0 && std::isfinite(z) ? 1 / z : 0;
+    }
+
+    double slope_between(uint32_t id, int x0, int y0, int x1, int y1, double here) const {
+        const bool first = shows(id, x0, y0), second = shows(id, x1, y1);
+        if (first && second) return (near(x0, y0) - near(x1, y1)) / 2;
+        return first ? near(x0, y0) - here : second ? here - near(x1, y1) : 0;
+    }
+
+    // Of a surface whose 1 / depth changes by these shares of itself from pixel to pixel.
+    float facing(double along, double across) const {
+        const double tilt2 = (along * along + across * across) / (angle_ * angle_);
+        return static_cast<float>(1 / std::sqrt(1 + tilt2));
+    }
+
+    const BlurredShares& shares_;
+    const View* depth_;
+    double angle_;
+};
+
+void put(Outputs out, std::size_t first, const Crossing& c) {
+    const auto& [p, q] = c.sides;
+    const std::array values{std::bit_cast<float>(q.id),
+                            c.along,
+                            c.steepness,
+                            p.along,
+                            q.along,
+                            p.near,
+                            q.near,
+                            p.facing,
+                            q.facing};
+    static_assert(values.size() == kPlanes);
+    for (std::size_t i = 0; i < values.size(); ++i) *out[first + i].at(c.x, c.y) = values[i];
+}
+
+Crossing crossing_at(std::span<const View> outputs, std::size_t first, int x, int y) {
+    const auto value = [&](std::size_t i) { return *outputs[first + i].at(x, y); };
+    Crossing c{x, y, first == kDown, value(1), value(2), {}};
+    c.sides[0] = {std::bit_cast<uint32_t>(*outputs[0].at(x, y)), value(3), value(5), value(7)};
+    c.sides[1] = {std::bit_cast<uint32_t>(value(0)), value(4), value(6), value(8)};
+    return c;
+}
+
+// A row of pixels, as it is blurred.
+class SharesRow {
+public:
+    SharesRow(const BlurredShares& shares, int x0, int x1) : all_(shares), x0_(x0), row_(index(x1 - x0)) {}
+
+    void move_to(int y) {
+        for (std::size_t i = 0; i < row_.size(); ++i) {
+            const int x = x0_ + static_cast<int>(i);
+            if (all_.is_plain(x, y)) {
+                row_[i].clear();
+                row_[i].add(static_cast<uint32_t>(all_.sole(x, y)), 1);
+            } else {
+                all_.get(x, y, row_[i]);
+            }
+        }
+    }
+    const Shares& operator[](int x) const { return row_[index(x - x0_)]; }
+    void swap(SharesRow& other) noexcept { row_.swap(other.row_); }
+
+private:
+    const BlurredShares& all_;
+    int x0_;
+    std::vector<Shares> row_;
+};
+
+// Where a share is a half, of which p and q have so much.
+double half_between(double p, double q) { return probit_of(p) / (probit_of(p) - probit_of(q)); }
+
+// Where an object alone has half; `otherwise` where that is not at this crossing.
+float half_of(uint32_t id, const Shares& p, const Shares& q, double otherwise) {
+    const double along = half_between(p.share(id), q.share(id));
+    return static_cast<float>(std::fabs(along - otherwise) < kAstray ? along : otherwise);
+}
+
+// Between two neighbours whose labels differ.
+Crossing between(const Surfaces& surfaces, const Shares& p, const Shares& q, int x, int y, bool down) {
+    Crossing out{x, y, down, 0, 0, {}};
+    const uint32_t a = p.label(), b = q.label();
+    const double from = share_of(p, a, b), to = share_of(q, a, b);
+    const double along = std::clamp(half_between(from, to), 1e-4, 1 - 1e-4);
+    const int dx = down ? 0 : 1, dy = down ? 1 : 0;
+    out.along = static_cast<float>(along);
+    out.steepness = static_cast<float>(probit_of(from) - probit_of(to));
+    out.sides = {surfaces.side(a, x, y, -dx, -dy, along),
+                 surfaces.side(b, x + dx, y + dy, dx, dy, 1 - along)};
+    for (Crossing::Side& side : out.sides) side.along = half_of(side.id, p, q, along);
+    return out;
+}
+
+}  // namespace
+
+FindCrossings::FindCrossings(const Options& options)
+    : options_(options),
+      reach_(static_cast<int>(std::ceil(3 * options.sigma))),
+      weights_(blur_weights(options.sigma, reach_)) {}
+
+Halo FindCrossings::halo() const {
+    const int reach = 1 + std::max(reach_, kAside + 1);
+    return {reach, reach};
+}
+
+void FindCrossings::compute(const Inputs& in, Outputs out, Scratch& scratch) const {
+    const BlurredShares shares(in.slot(0), options_.integers, weights_, reach_, scratch);
+    const Surfaces surfaces(shares, in.slot(1), options_.pixel_angle);
+    const Rect& rect = out[0].rect;
+    const Rect with_next = intersect(Rect{rect.x0, rect.y0, rect.x1 + 1, rect.y1 + 1}, in.slot(0)[0].rect);
+    SharesRow here(shares, with_next.x0, with_next.x1), below(shares, with_next.x0, with_next.x1);
+    below.move_to(rect.y0);
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        here.swap(below);
+        if (y + 1 < with_next.y1) below.move_to(y + 1);
+        for (const MutView& plane : out) std::fill_n(plane.row(y), rect.width(), 0.0F);
+        for (int x = rect.x0; x < rect.x1; ++x) {
+            out[0].row(y)[x - rect.x0] = std::bit_cast<float>(here[x].label());
+            if (x + 1 < with_next.x1 && here[x].label() != here[x + 1].label())
+                put(out, kRight, between(surfaces, here[x], here[x + 1], x, y, false));
+            if (y + 1 < with_next.y1 && here[x].label() != below[x].label())
+                put(out, kDown, between(surfaces, here[x], below[x], x, y, true));
+        }
+    }
+}
+
+std::vector<Crossing> crossings_in(std::span<const View> outputs, const Rect& block) {
+    std::vector<Crossing> out;
+    for (int y = block.y0; y < block.y1; ++y) {
+        const float *right = outputs[kRight + 1].at(block.x0, y), *down = outputs[kDown + 1].at(block.x0, y);
+        for (int x = block.x0; x < block.x1; ++x) {
+            if (right[x - block.x0] != 0) out.push_back(crossing_at(outputs, kRight, x, y));
+            if (down[x - block.x0] != 0) out.push_back(crossing_at(outputs, kDown, x, y));
+        }
+    }
+    return out;
+}
+
+}  // namespace keyline

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/stroke_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace keyline {
+
+namespace {
+
+constexpr double kCell = 4;       // pixels
+constexpr double kSameWay = 0.8;  // cosine
+
+int64_t cell_of(double v) { return static_cast<int64_t>(std::floor(v / kCell)); }
+
+}  // namespace
+
+uint64_t StrokeIndex::cell(int64_t column, int64_t row) {
+    return uint64_t{static_cast<uint32_t>(row)} << 32 | static_cast<uint32_t>(column);
+}
+
+void StrokeIndex::add(const Stroke& stroke, const Rect& near) {
+    const std::vector<StrokeVertex>& v = stroke.vertices;
+    for (std::size_t i = 0; i + (stroke.closed ? 0 : 1) < v.size(); ++i) {
+        if (v[i].x < near.x0 || v[i].x > near.x1 || v[i].y < near.y0 || v[i].y > near.y1) continue;
+        const StrokeVertex& next = v[(i + 1) % v.size()];
+        const Piece piece{v[i].x,
+                          v[i].y,
+                          next.x - v[i].x,
+                          next.y - v[i].y,
+                          stroke.kind,
+                          !stroke.closed && i == 0,
+                          !stroke.closed && i + 2 == v.size(),
+                          strokes_};
+        longest_ = std::max(longest_, std::fabs(piece.dx) + std::fabs(piece.dy));
+        pieces_[cell(cell_of(piece.x), cell_of(piece.y))].push_back(piece);
+    }
+    ++strokes_;
+}
+
+template <class Visit>
+bool StrokeIndex::any_near(double x, double y, double reach, const Visit& visit) const {
+    const double far = reach + longest_;
+    for (int64_t row = cell_of(y - far); row <= cell_of(y + far); ++row)
+        for (int64_t column = cell_of(x - far); column <= cell_of(x + far); ++column)
+            if (const auto it = pieces_.find(cell(column, row)); it != pieces_.end())
+                for (const Piece& piece : it->second)
+                    if (visit(piece)) return true;
+    return false;
+}
+
+bool StrokeIndex::has(const Along& along) const {
+    return any_near(along.x, along.y, within_, [&](const Piece& piece) { return is_beside(piece, along); });
+}
+
+double StrokeIndex::ahead(const Along& from, double reach, int except) const {
+    double least = std::numeric_limits<double>::infinity();
+    any_near(from.x, from.y, reach, [&](const Piece& piece) {
+        const double turn = from.tx * piece.dy - from.ty * piece.dx;
+        if (piece.stroke == except || turn == 0) return false;
+        const double x = piece.x - from.x, y = piece.y - from.y;
+        const double distance = (x * piece.dy - y * piece.dx) / turn;
+        const double share = (x * from.ty - y * from.tx) / turn;
+        if (share >= 0 && share <= 1 && distance >= 0 && distance <= reach) least = std::min(least, distance);
+        return false;
+    });
+    return least;
+}
+
+bool StrokeIndex::is_beside(const Piece& piece, const Along& along) const {
+    const double length2 = piece.dx * piece.dx + piece.dy * piece.dy;
+    if (!(length2 > 0)) return false;
+    const double x = along.x - piece.x, y = along.y - piece.y;
+    const double along_piece = (x * piece.dx + y * piece.dy) / length2;
+    if ((piece.first && along_piece < 0) || (piece.last && along_piece > 1)) return false;
+    const double share = std::clamp(along_piece, 0.0, 1.0);
+    const double off_x = x - share * piece.dx, off_y = y - share * piece.dy;
+    if (off_x * off_x + off_y * off_y >= within_ * within_) return false;
+    const double cosine = (along.tx * piece.dx + along.ty * piece.dy) / std::sqrt(length2);
+    return (along.kind == piece.kind ? cosine : std::fabs(cosine)) > kSameWay;
+}
+
+}  // namespace keyline

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/color_operation.h"
+#include "engine/node/node_adaptor.h"
+
+namespace keyline {
+
+namespace {
+
+struct Colorspace {
+    static constexpr Info info{"colorspace",
+                               "Converts R G B from one OpenColorIO space to another; other channels pass."};
+
+    struct Params {
+        Input in;
+        std::string from = "scene_linear";
+        std::string to;
+
+        static constexpr auto fields =
+            declare(input(&Params::in, "in", "The image to convert.", colour()),
+                    field(&Params::from, "from", "The space, or role, that the input is in."),
+                    field(&Params::to, "to", "The space, or role, to convert to.").required());
+    };
+
+    explicit Colorspace(const Params& p) : params(p) {}
+
+    Stream expand(Builder& builder) const {
+        return convert_colour(builder, builder.input(params.in),
+                              builder.colors().convert(params.from, params.to));
+    }
+
+    const Params params;
+};
+
+}  // namespace
+
+KEYLINE_NODE(colorspace, Colorspace)
+
+}  // namespace keyline

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/color_operation.h"
+#include "engine/node/node_adaptor.h"
+
+namespace keyline {
+
+namespace {
+
+struct Display {
+    static constexpr Info info{"display",
+                               "Makes R G B ready for a display, through one of its OpenColorIO views."};
+
+    struct Params {
+        Input in;
+        std::string display;
+        std::string view;
+        std::string from = "scene_linear";
+
+        static constexpr auto fields =
+            declare(input(&Params::in, "in", "The image to show.", colour()),
+                    field(&Params::display, "display", "The display; empty takes the config's default."),
+                    field(&Params::view, "view", "The view; empty takes the display's default."),
+                    field(&Params::from, "from", "The space, or role, that the input is in."));
+    };
+
+    explicit Display(const Params& p) : params(p) {}
+
+    Stream expand(Builder& builder) const {
+        return convert_colour(builder, builder.input(params.in),
+                              builder.colors().display(params.from, params.display, params.view));
+    }
+
+    const Params params;
+};
+
+}  // namespace
+
+KEYLINE_NODE(display, Display)
+
+}  // namespace keyline

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/cryptomatte.h"
+
+#include "engine/base/channels.h"
+#include "engine/node/node_adaptor.h"
+#include "engine/node/pixel_loop.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <compare>
+#include <fmt/format.h>
+
+namespace keyline {
+
+namespace {
+
+// An object to look for.
+struct Object {
+    uint32_t id = 0;
+    std::string unchecked;  // its name, where no manifest says that there is such an object
+
+    friend auto operator<=>(const Object&, const Object&) = default;
+};
+
+// The coverage of some objects, over all ranks.
+class Coverage final : public Operation {
+public:
+    explicit Coverage(std::vector<Object> objects) : objects_(std::move(objects)), seen_(objects_.size()) {}
+
+    void compute(const Inputs& in, Outputs out, Scratch&) const override {
+        const std::span<const View> ranks = in.slot(0);
+        const Rect& rect = out[0].rect;
+        ran_.store(true, std::memory_order_relaxed);
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            float* row = out[0].row(y);
+            std::fill_n(row, rect.width(), 0.0F);
+            for (std::size_t r = 0; r + 1 < ranks.size(); r += 2)
+                add(ranks[r].row(y), ranks[r + 1].row(y), rect.width(), row);
+        }
+    }
+    double cost() const override { return 30; }
+
+    // A name that was misspelled covers nothing, as an object does that is out of sight.
+    std::vector<std::string> findings() const override {
+        std::vector<std::string> out;
+        for (std::size_t i = 0; ran_ && i < objects_.size(); ++i)
+            if (!seen_[i] && !objects_[i].unchecked.empty())
+                out.push_back(
+                    fmt::format("no pixel shows {}; is that its name?", in_quotes(objects_[i].unchecked)));
+        return out;
+    }
+
+private:
+    bool find(uint32_t id) const {
+        const auto it = std::ranges::lower_bound(objects_, id, {}, &Object::id);
+        if (it == objects_.end() || it->id != id) return false;
+        seen_[static_cast<std::size_t>(it - objects_.begin())].store(true, std::memory_order_relaxed);
+        return true;
+    }
+
+    void add(const float* ids, const float* coverage, int n, float* sum) const {
+        uint32_t last = 0;  // neighbours mostly show the same object
+        bool wanted = false;
+        for (int x = 0; x < n; ++x) {
+            const auto id = std::bit_cast<uint32_t>(ids[x]);
+            if (id != last) wanted = find(id);
+            last = id;
+            if (wanted) sum[x] = with_one_nan(sum[x] + coverage[x]);
+        }
+    }
+
+    std::vector<Object> objects_;  // sorted by id; the id 0, where there is nothing, is never one
+    mutable std::vector<std::atomic<bool>> seen_;
+    mutable std::atomic<bool> ran_ = false;
+};
+
+struct CryptomatteNode {
+    static constexpr Info info{"cryptomatte", "The matte of objects by their names."};
+
+    struct Params {
+        Input in;
+        std::string layer;
+        std::vector<std::string> objects;
+
+        static constexpr auto fields = declare(
+            input(&Params::in, "in", "The image with the Cryptomatte, all of its layers."),
+            field(&Params::layer, "layer",
+                  "The Cryptomatte's name, as \"CryptoObject\"; empty where there is but one."),
+            field(&Params::objects, "objects", "Names; * in one stands for any characters, \\* for a star.")
+                .required());
+    };
+    static constexpr std::array outputs{"matte"};
+
+    explicit CryptomatteNode(const Params& p) : params(p) {}
+
+    Stream expand(Builder& builder) const {
+        Stream stream = builder.input(params.in);
+        const Cryptomatte matte = find_cryptomatte(builder, stream, params.layer);
+        const auto operation = std::make_shared<const Coverage>(wanted(builder, *matte.info));
+        const auto value = builder.add(operation, {{stream, matte.values()}}, stream.window, 1);
+        stream.channels.clear();
+        stream.set(outputs[0], value.front());
+        return stream;
+    }
+
+    const Params params;
+
+private:
+    std::vector<Object> wanted(Builder& builder, const CryptomatteInfo& of) const {
+        std::vector<std::string> faults;
+        const auto manifest = CryptomatteManifest::find(builder, of, faults);
+        for (const std::string& fault : faults)
+            builder.warn(fmt::format("the Cryptomatte {}: {}", in_quotes(of.layers), fault));
+        std::vector<Object> out;
+        for (const std::string& object : params.objects) {
+            const auto found = objects_of(builder, manifest, object);
+            out.insert(out.end(), found.begin(), found.end());
+        }
+        std::ranges::sort(out);  // of one id, first the one that is known to be there
+        const auto is_same = [](const Object& a, const Object& b) { return a.id == b.id; };
+        out.erase(std::unique(out.begin(), out.end(), is_same), out.end());
+        return out;
+    }
+
+    static std::vector<Object> objects_of(Builder& builder,
+                                          const std::shared_ptr<const CryptomatteManifest>& manifest,
+                                          const std::string& object) {
+        std::vector<Object> listed;
+        if (manifest)
+            for (const uint32_t id : manifest->ids(object)) listed.push_back({id, {}});
+        if (!listed.empty()) return listed;
+        const bool whole = manifest && manifest->fault().empty();
+        if (whole || (manifest && has_wildcard(object))) refuse_unknown(builder, *manifest, object);
+        if (has_wildcard(object))
+            builder.bad_parameter(
+                "objects", fmt::format("the input has no manifest to look {} up in", in_quotes(object)),
+                "give whole names, and \\* for a star that belongs to one");
+        builder.warn(fmt::format("{} is not in the manifest; it is looked for by its hash, unchecked",
+                                 in_quotes(literal_name(object))));
+        return {{cryptomatte_id(literal_name(object)), literal_name(object)}};
+    }
+
+    static void refuse_unknown(Builder& builder, const CryptomatteManifest& manifest,
+                               const std::string& object) {
+        std::string near = did_you_mean(object, manifest.names());
+        builder.bad_parameter("objects",
+                              fmt::format("none of the {} objects of the Cryptomatte is {}", manifest.size(),
+                                          in_quotes(object)),
+                              near.empty() ? "there are " + some_of(manifest.names()) : near);
+    }
+};
+
+}  // namespace
+
+KEYLINE_NODE(cryptomatte, CryptomatteNode)
+
+}  // namespace keyline

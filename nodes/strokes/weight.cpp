@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/strokes.h"
+#include "engine/kit/wildcard.h"
+#include "engine/node/node_adaptor.h"
+#include "engine/simd/elementary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace keyline {
+
+namespace {
+
+enum class Units { kDisplay, kPixels };
+
+constexpr auto words(Units) {
+    return std::array{
+        Word<Units>{"display", Units::kDisplay, "pixels of a display window 1080 high: the same at any size"},
+        Word<Units>{"px", Units::kPixels, "pixels of the frame"}};
+}
+
+struct ByDepth {
+    double reference = 5;
+    double power = 1;
+    std::array<double, 2> range{0.5, 1.6};
+
+    static constexpr auto fields = declare(
+        field(&ByDepth::reference, "reference", "The depth at which the factor is 1.",
+              at_least(1e-6).tested_to(100)),
+        field(&ByDepth::power, "power", "How fast it falls behind: 1 as perspective has it, 0 not at all.",
+              between(0, 4)),
+        field(&ByDepth::range, "range", "The least and the most that it can be.", at_least(0).tested_to(4)));
+};
+
+// Which lines a rule is for: "hair*", those of such objects; "hair* × face*", those between two.
+struct Pattern {
+    explicit Pattern(std::string_view text) {
+        for (const std::string_view sign : {" × ", " x "})
+            if (const std::size_t at = text.find(sign); at != std::string_view::npos) {
+                near = text.substr(0, at);
+                far = text.substr(at + sign.size());
+                return;
+            }
+        near = text;
+    }
+    bool holds(std::string_view of_near, std::string_view of_far) const {
+        return far ? matches(of_near, near) && matches(of_far, *far) : matches(of_near, near);
+    }
+
+    std::string near;
+    std::optional<std::string> far;
+};
+
+struct Weight {
+    static constexpr Info info{"weight",
+                               "How wide strokes are: a width, times what each is and where it is."};
+
+    struct Params {
+        Input in;
+        double width = 2;
+        Units units = Units::kDisplay;
+        std::optional<ByDepth> by_depth;
+        double by_curvature = 0;
+        std::array<double, 2> by_angle{1, 1};
+        Map<double> by_kind, by_object;
+        double min = 0.3;
+        double smooth = 8;
+
+        static constexpr auto fields = declare(
+            input(&Params::in, "in", "The strokes; what their width is already is a factor, too.",
+                  data<Strokes>()),
+            field(&Params::width, "width", "Across, where all factors are 1.", between(0, 500)),
+            field(&Params::units, "units", "What lengths are measured in."),
+            field(&Params::by_depth, "by_depth", "What is nearer is wider: (reference / depth)^power."),
+            field(&Params::by_curvature, "by_curvature",
+                  "How much wider where a stroke bends: this much more, times the width, at a radius of 10.",
+                  between(-1, 4)),
+            field(
+                &Params::by_angle, "by_angle",
+                "The factors where the surfaces on both sides go on into each other, and where they are back "
+                "to back.",
+                at_least(0).tested_to(4)),
+            field(&Params::by_kind, "by_kind", "The factors of kinds: { \"crease\": 0.6 }.",
+                  at_least(0).tested_to(4)),
+            field(&Params::by_object, "by_object",
+                  "The factors of objects by name, in which * stands for any characters, and of pairs of the "
+                  "nearer and the farther: { \"hair*\": 0.5, \"hair* × face*\": 0 }. Of several, all count.",
+                  at_least(0).tested_to(4)),
+            field(&Params::min, "min", "No factors make a stroke narrower than this share, unless one is 0.",
+                  between(0, 1)),
+            field(&Params::smooth, "smooth", "The length along a stroke over which changes are evened out.",
+                  between(0, 200)));
+    };
+
+    static void check(const Params& p, Check& c) {
+        for (const auto& [kind, factor] : p.by_kind.entries)
+            if (!kind_of_word(kind))
+                c.error("by_kind", fmt::format("there is no kind {}", in_quotes(kind)),
+                        did_you_mean(kind, kind_words()));
+        if (p.by_depth && p.by_depth->range[0] > p.by_depth->range[1])
+            c.error("by_depth",
+                    fmt::format("'range' is from {} down to {}", p.by_depth->range[0], p.by_depth->range[1]));
+    }
+
+    explicit Weight(Params p) : params(std::move(p)) {
+        for (const auto& [pattern, factor] : params.by_object.entries)
+            by_object.emplace_back(Pattern(pattern), factor);
+    }
+
+    Strokes derive(const Inputs& in) const {
+        Strokes out = in.datum<Strokes>(params.in);
+        const double unit = params.units == Units::kPixels ? 1 : display_unit(out);
+        for (Stroke& s : out.strokes) {
+            const double whole = factor_of(out, s);
+            for (StrokeVertex& v : s.vertices) {
+                const double factor = whole * factor_at(v, unit);
+                v.width *= factor > 0 ? std::max(factor, params.min) : 0;
+            }
+            even_out(s, params.smooth * unit);
+            for (StrokeVertex& v : s.vertices) v.width *= params.width * unit;
+        }
+        return out;
+    }
+    static std::size_t datum_bytes() { return kUsualStrokes; }
+
+    const Params params;
+    std::vector<std::pair<Pattern, double>> by_object;
+
+private:
+    static std::vector<std::string> kind_words() {
+        std::vector<std::string> out;
+        for (const auto& w : words(StrokeKind{})) out.emplace_back(w.word);
+        return out;
+    }
+    static std::optional<StrokeKind> kind_of_word(std::string_view word) {
+        for (const auto& w : words(StrokeKind{}))
+            if (w.word == word) return w.value;
+        return {};
+    }
+
+    // Of all of a stroke.
+    double factor_of(const Strokes& all, const Stroke& s) const {
+        const auto name = [&](uint32_t id) {
+            const auto it = all.names.find(id);
+            return it == all.names.end() ? std::string_view() : std::string_view(it->second);
+        };
+        double factor = 1;
+        for (const auto& [kind, f] : params.by_kind.entries)
+            if (kind == word_of(s.kind)) factor *= f;
+        for (const auto& [pattern, f] : by_object)
+            if (pattern.holds(name(s.near), name(s.far))) factor *= f;
+        return factor;
+    }
+
+    double factor_at(const StrokeVertex& v, double unit) const {
+        double factor = 1;
+        if (params.by_depth && v.depth > 0) {
+            const ByDepth& d = *params.by_depth;
+            factor *= std::clamp(elementary::pow(d.reference / v.depth, d.power), d.range[0], d.range[1]);
+        }
+        factor *= std::max(0.0, 1 + params.by_curvature * std::min(1.0, std::fabs(v.curvature) * 10 * unit));
+        const double cosine = elementary::sin_cos_degrees(v.sharpness).cos;
+        factor *= params.by_angle[0] + (params.by_angle[1] - params.by_angle[0]) / 2 * (1 - cosine);
+        return factor;
+    }
+
+    // The mean over a length along the stroke, what is near counting more.
+    static void even_out(Stroke& s, double length) {
+        if (!(length > 0)) return;
+        const std::vector<StrokeVertex> before = s.vertices;
+        const auto n = static_cast<std::ptrdiff_t>(before.size());
+        const double whole = length_of(s);
+        // The width at `steps` from i, and how far that is; past the ends there is none.
+        const auto add = [&](std::ptrdiff_t i, std::ptrdiff_t step, double& sum, double& weights) {
+            for (std::ptrdiff_t k = step; k > -n && k < n; k += step) {
+                if (!s.closed && (i + k < 0 || i + k >= n)) return;
+                const StrokeVertex& v = before[static_cast<std::size_t>((i + k + n) % n)];
+                double far = std::fabs(v.arc - before[static_cast<std::size_t>(i)].arc);
+                if (i + k < 0 || i + k >= n) far = whole - far;
+                if (far >= length) return;
+                sum += (1 - far / length) * v.width;
+                weights += 1 - far / length;
+            }
+        };
+        for (std::ptrdiff_t i = 0; i < n; ++i) {
+            double sum = before[static_cast<std::size_t>(i)].width, weights = 1;
+            add(i, -1, sum, weights);
+            add(i, 1, sum, weights);
+            s.vertices[static_cast<std::size_t>(i)].width = sum / weights;
+        }
+    }
+};
+
+}  // namespace
+
+KEYLINE_NODE(weight, Weight)
+
+}  // namespace keyline

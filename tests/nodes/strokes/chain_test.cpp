@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/cryptomatte.h"
+#include "engine/kit/stroke_doubles.h"
+#include "engine/kit/stroke_joints.h"
+#include "engine/node/datum.h"
+#include "engine/plan/planner.h"
+#include "tests/support/run.h"
+#include "tests/support/scene.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace keyline::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A straight stroke with a vertex a pixel.
+Stroke straight(Point from, Point to, StrokeKind kind = StrokeKind::kCrease, uint32_t near = 1) {
+    Stroke out;
+    out.kind = kind;
+    out.near = out.far = near;
+    const int n = static_cast<int>(std::ceil(std::hypot(to.x - from.x, to.y - from.y)));
+    for (int i = 0; i <= n; ++i) {
+        StrokeVertex v;
+        v.x = from.x + (to.x - from.x) * i / n;
+        v.y = from.y + (to.y - from.y) * i / n;
+        out.vertices.push_back(v);
+    }
+    return out;
+}
+
+Stroke ring(Point centre, double radius) {
+    Stroke out;
+    out.kind = StrokeKind::kOutline;
+    out.closed = true;
+    for (int i = 0; i < 60; ++i) {
+        StrokeVertex v;
+        v.x = centre.x + radius * std::cos(i * 0.1047198);
+        v.y = centre.y + radius * std::sin(i * 0.1047198);
+        out.vertices.push_back(v);
+    }
+    return out;
+}
+
+TEST(Chain, EndsThatPointAtEachOtherAreJoined) {
+    const auto joined = [](Point from, Point to) {
+        return join_strokes({straight({0, 0}, {10, 0}), straight(from, to)}, 4, 30).size() == 1;
+    };
+    EXPECT_TRUE(joined({13, 0}, {22, 0}));
+    EXPECT_FALSE(joined({13, 0}, {20, 0})) << "a gap that is nearly as long as the stroke";
+    EXPECT_TRUE(joined({23, 0}, {13, 0})) << "a crease has no direction";
+    EXPECT_TRUE(joined({13, 1}, {24, 3}));
+    EXPECT_FALSE(joined({15, 0}, {20, 0})) << "too far";
+    EXPECT_FALSE(joined({12, 3}, {20, 3})) << "beside";
+    EXPECT_FALSE(joined({13, 0}, {13, 9})) << "it turns too much";
+}
+
+TEST(Chain, TheGapIsFilledWithAVertexAPixel) {
+    const auto strokes = join_strokes({straight({0, 0}, {10, 0}), straight({13, 0}, {23, 0})}, 4, 30);
+    ASSERT_EQ(strokes.size(), 1U);
+    ASSERT_EQ(strokes[0].vertices.size(), 24U);
+    for (int i = 0; i <= 23; ++i) EXPECT_NEAR(strokes[0].vertices[static_cast<std::size_t>(i)].x, i, 1e-9);
+}
+
+TEST(Chain, ARingIsClosedAcrossItsGap) {
+    Stroke open = ring({20, 20}, 12);
+    open.closed = false;
+    open.vertices.resize(open.vertices.size() - 2);  // 3.8 pixels are missing
+    const auto strokes = join_strokes({open}, 4, 60);
+    ASSERT_EQ(strokes.size(), 1U);
+    EXPECT_TRUE(strokes[0].closed);
+    for (const StrokeVertex& v : strokes[0].vertices)
+        EXPECT_NEAR(std::hypot(v.x - 20, v.y - 20), 12, 0.2) << v.x << " " << v.y;
+}
+
+TEST(Chain, OnlyOneKindOfOneOwnerIsJoined) {
+    const Stroke first = straight({0, 0}, {10, 0});
+    EXPECT_EQ(join_strokes({first, straight({11, 0}, {20, 0}, StrokeKind::kLight)}, 4, 30).size(), 2U);
+    EXPECT_EQ(join_strokes({first, straight({11, 0}, {20, 0}, StrokeKind::kCrease, 2)}, 4, 30).size(), 2U);
+}
+
+// An owner is on the right: two outlines that end in one point do not go on in
+// each other.
+TEST(Chain, OutlinesAreNotTurned) {
+    const auto strokes = join_strokes(
+        {straight({0, 0}, {10, 0}, StrokeKind::kOutline), straight({20, 0}, {10, 0}, StrokeKind::kOutline)},
+        4, 30);
+    EXPECT_EQ(strokes.size(), 2U);
+}
+
+TEST(Chain, AtAJunctionTheStraightestGoesOn) {
+    const auto strokes = join_strokes(
+        {straight({0, 0}, {10, 0}), straight({10, 0}, {18, 6}), straight({10, 0}, {20, 1})}, 4, 30);
+    ASSERT_EQ(strokes.size(), 2U);
+    EXPECT_EQ(strokes[0].vertices.front().x, 0);
+    EXPECT_EQ(strokes[0].vertices.back().x, 20);
+}
+
+TEST(Chain, ALineThatComesBackIsClosed) {
+    const auto strokes = join_strokes({straight({0, 0}, {10, 0}), straight({10, 0}, {10, 10}),
+                                       straight({10, 10}, {0, 10}), straight({0, 10}, {0, 0})},
+                                      4, 30);
+    ASSERT_EQ(strokes.size(), 1U);
+    EXPECT_TRUE(strokes[0].closed);
+    EXPECT_EQ(strokes[0].vertices.size(), 40U);
+}
+
+TEST(Chain, LooseEndsGoOnToTheLineAhead) {
+    const auto ahead_of = [](double x) {
+        std::vector<Stroke> strokes{straight({0, 5}, {20, 5}),
+                                    straight({x, 0}, {x, 10}, StrokeKind::kOutline)};
+        meet_strokes(strokes, 4);
+        return strokes[0];
+    };
+    EXPECT_NEAR(ahead_of(23).vertices.back().x, 23, 1e-9);
+    EXPECT_EQ(ahead_of(23).ends, (std::array{StrokeEnd::kEnd, StrokeEnd::kJoined}));
+    EXPECT_NEAR(ahead_of(-3).vertices.front().x, -3, 1e-9);
+    EXPECT_EQ(ahead_of(25).vertices.back().x, 20) << "too far";
+    std::vector<Stroke> beside{straight({0, 0}, {20, 0}), straight({22, 3}, {40, 3})};
+    meet_strokes(beside, 4);
+    EXPECT_EQ(beside[0].vertices.back().x, 20);
+}
+
+TEST(Chain, WhatRunsAlongAnEarlierStrokeGoes) {
+    const Stroke first = straight({0, 0}, {20, 0}, StrokeKind::kOutline);
+    const auto left = [&](const Stroke& s) { return without_doubles({first, s}, 1.5, 4).size() - 1; };
+    EXPECT_EQ(left(straight({5, 1}, {15, 1})), 0U);
+    EXPECT_EQ(left(straight({15, 1}, {5, 1})), 0U);
+    EXPECT_EQ(left(straight({5, 2}, {15, 2})), 1U);
+    EXPECT_EQ(left(straight({10, -5}, {10, 5})), 1U) << "it crosses";
+    EXPECT_EQ(left(straight({15, 1}, {5, 1}, StrokeKind::kOutline)), 1U)
+        << "the other side of something thin";
+}
+
+TEST(Chain, OfADoubleThatLeavesTheRestStays) {
+    const auto strokes = without_doubles(
+        {straight({0, 0}, {20, 0}, StrokeKind::kOutline), straight({10, 1}, {40, 1})}, 1.5, 4);
+    ASSERT_EQ(strokes.size(), 2U);
+    EXPECT_NEAR(strokes[1].vertices.front().x, 21, 1.5);
+    EXPECT_EQ(strokes[1].ends[0], StrokeEnd::kJoined);
+    EXPECT_EQ(strokes[1].vertices.back().x, 40);
+}
+
+TEST(Chain, ARingOpensWhereItIsADouble) {
+    const auto strokes =
+        without_doubles({straight({30, 0}, {30, 40}, StrokeKind::kCrease), ring({20, 20}, 10)}, 1, 4);
+    ASSERT_EQ(strokes.size(), 2U);
+    EXPECT_FALSE(strokes[1].closed);
+    EXPECT_GT(length_of(strokes[1]), 45);
+}
+
+Strokes chained(const Scene& scene, Json params) {
+    params.set("type", "chain").set("in", {"outlines"});
+    const Json nodes{
+        {"outlines", {{"type", "contours"}, {"in", "in"}, {"layer", "CryptoObject"}, {"depth", "in:Depth"}}},
+        {"c", params}};
+    render(make_plan(resolve_graph(nodes, {}, {{"in", {passes_of(scene)}}}, 1, true, {"c"}), {2, 16}));
+    return datum_as<Strokes>(*rendered_data().front());
+}
+
+// Its outline is in two parts, against the one behind and against nothing.
+TEST(Chain, AnObjectBeforeAnotherHasOneClosedOutline) {
+    const Strokes strokes =
+        chained({.things = {disc("behind", {18.2, 23.7}, 10, 5), disc("before", {30.4, 22.1}, 9, 4)}}, {});
+    ASSERT_EQ(strokes.strokes.size(), 2U);
+    for (const Stroke& s : strokes.strokes) {
+        EXPECT_EQ(s.closed, s.near == cryptomatte_id("before"));
+        EXPECT_EQ(strokes.names.count(s.near), 1U);
+    }
+}
+
+TEST(Chain, ShortLooseStrokesGo) {
+    const Scene scene{.things = {disc("a", {20, 20}, 3, 5)}};
+    EXPECT_EQ(chained(scene, {{"min_length", 15}}).strokes.size(), 1U);
+    EXPECT_EQ(chained(scene, {{"min_length", 25}}).strokes.size(), 0U);
+}
+
+TEST(Chain, WantsStrokes) {
+    const Json empty{{"c", {{"type", "chain"}, {"in", Json::array()}}}};
+    EXPECT_THAT([&] { resolve_graph(empty, {}, {}, 1, true, {"c"}); },
+                ::testing::ThrowsMessage<Failure>(HasSubstr("'in' is empty")));
+}
+
+}  // namespace
+}  // namespace keyline::testing

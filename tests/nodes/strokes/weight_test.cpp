@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/strokes.h"
+
+#include <gmock/gmock.h>
+
+namespace keyline::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr Rect kHalf{0, 0, 960, 540};  // a display of half of 1080
+
+Stroke line(int n = 20) {
+    Places places;
+    for (int i = 0; i < n; ++i) places.emplace_back(10.0 + i, 10);
+    return stroke(places);
+}
+
+std::vector<double> widths(const Stroke& s) {
+    std::vector<double> out;
+    for (const StrokeVertex& v : s.vertices) out.push_back(v.width);
+    return out;
+}
+
+double width_of(const Strokes& in, const Json& params, std::size_t which = 0) {
+    return run_on_strokes("weight", params, in).strokes.at(which).vertices[3].width;
+}
+
+TEST(Weight, IsMeasuredOnADisplayOf1080Lines) {
+    const Strokes in = strokes_in(kHalf, {line()});
+    EXPECT_DOUBLE_EQ(width_of(in, {{"width", 3}}), 1.5);
+    EXPECT_DOUBLE_EQ(width_of(in, {{"width", 3}, {"units", "px"}}), 3);
+}
+
+TEST(Weight, MultipliesWhatWidthThereIs) {
+    Stroke s = line();
+    for (StrokeVertex& v : s.vertices) v.width = 0.5;
+    EXPECT_DOUBLE_EQ(width_of(strokes_in(kHalf, {s}), {{"width", 3}, {"units", "px"}}), 1.5);
+}
+
+TEST(Weight, FallsWithDepth) {
+    Stroke s = line();
+    for (StrokeVertex& v : s.vertices) v.depth = 8;
+    const auto at = [&](const Json& depth) {
+        return width_of(strokes_in(kHalf, {s}),
+                        {{"width", 1}, {"units", "px"}, {"min", 0}, {"by_depth", depth}});
+    };
+    EXPECT_DOUBLE_EQ(at({{"reference", 8}}), 1);
+    EXPECT_NEAR(at({{"reference", 10}}), 1.25, 1e-12);
+    EXPECT_NEAR(at({{"reference", 10}, {"power", 2}}), 1.5625, 1e-12);
+    EXPECT_NEAR(at({{"reference", 1}}), 0.5, 1e-12) << "the least of its range";
+    EXPECT_NEAR(at({{"reference", 100}}), 1.6, 1e-12) << "the most";
+    s.vertices[3].depth = 0;
+    EXPECT_GT(width_of(strokes_in(kHalf, {s}),
+                       {{"width", 1}, {"units", "px"}, {"smooth", 0}, {"by_depth", Json{{"reference", 1}}}}),
+              0.99)
+        << "where it is not known";
+}
+
+TEST(Weight, GrowsWhereTheStrokeBends) {
+    Stroke s = line();
+    for (StrokeVertex& v : s.vertices) v.curvature = -0.05;
+    const Json params{{"width", 1}, {"units", "px"}, {"by_curvature", 1}};
+    EXPECT_DOUBLE_EQ(width_of(strokes_in(kHalf, {s}), params), 1.5) << "a radius of 20, either way";
+}
+
+TEST(Weight, TakesTheAngleBetweenTheSides) {
+    Stroke s = line();
+    const Json params{{"width", 1}, {"units", "px"}, {"by_angle", Json{0.5, 1.5}}};
+    EXPECT_DOUBLE_EQ(width_of(strokes_in(kHalf, {s}), params), 0.5);
+    for (StrokeVertex& v : s.vertices) v.sharpness = 90;
+    EXPECT_DOUBLE_EQ(width_of(strokes_in(kHalf, {s}), params), 1);
+    for (StrokeVertex& v : s.vertices) v.sharpness = 180;
+    EXPECT_DOUBLE_EQ(width_of(strokes_in(kHalf, {s}), params), 1.5);
+}
+
+TEST(Weight, TakesKindsAndObjectsByName) {
+    std::vector<Stroke> strokes{line(), line(), line(), line()};
+    strokes[1].kind = strokes[2].kind = strokes[3].kind = StrokeKind::kCrease;
+    strokes[2].near = 1;
+    strokes[3].near = 1;
+    strokes[3].far = 2;
+    Strokes in = strokes_in(kHalf, strokes);
+    in.names = {{1, "hair.left"}, {2, "face"}};
+    const Json params{{"width", 10},
+                      {"units", "px"},
+                      {"min", 0.1},
+                      {"by_kind", Json{{"crease", 0.5}}},
+                      {"by_object", Json{{"hair*", 0.4}, {"hair* x face*", 0}}}};
+    EXPECT_DOUBLE_EQ(width_of(in, params, 0), 10);
+    EXPECT_DOUBLE_EQ(width_of(in, params, 1), 5);
+    EXPECT_DOUBLE_EQ(width_of(in, params, 2), 2);
+    EXPECT_DOUBLE_EQ(width_of(in, params, 3), 0) << "a pair; 0 goes, whatever 'min' is";
+}
+
+TEST(Weight, HasALeast) {
+    const Json params{{"width", 10}, {"units", "px"}, {"by_kind", Json{{"outline", 0.01}}}};
+    EXPECT_DOUBLE_EQ(width_of(strokes_in(kHalf, {line()}), params), 3);
+}
+
+TEST(Weight, EvensOutSteps) {
+    Stroke s = line(60);
+    for (std::size_t i = 30; i < 60; ++i) s.vertices[i].width = 3;
+    const std::vector<double> w = widths(
+        run_on_strokes("weight", {{"width", 1}, {"units", "px"}, {"smooth", 8}}, strokes_in(kHalf, {s}))
+            .strokes[0]);
+    for (std::size_t i = 1; i < w.size(); ++i) {
+        EXPECT_GE(w[i], w[i - 1] - 1e-12);
+        EXPECT_LE(w[i] - w[i - 1], 0.26);
+    }
+    EXPECT_DOUBLE_EQ(w[10], 1);
+    EXPECT_DOUBLE_EQ(w[50], 3);
+}
+
+TEST(Weight, EvensOutRoundAClosedStroke) {
+    Places square;
+    for (int i = 0; i < 10; ++i) square.emplace_back(10.0 + i, 10);
+    for (int i = 0; i < 10; ++i) square.emplace_back(20, 10.0 + i);
+    for (int i = 0; i < 10; ++i) square.emplace_back(20.0 - i, 20);
+    for (int i = 0; i < 10; ++i) square.emplace_back(10, 20.0 - i);
+    Stroke s = stroke(square, 1, StrokeKind::kOutline, true);
+    s.vertices[0].width = 9;
+    const std::vector<double> w = widths(
+        run_on_strokes("weight", {{"width", 1}, {"units", "px"}, {"smooth", 4}}, strokes_in(kHalf, {s}))
+            .strokes[0]);
+    EXPECT_NEAR(w[1], w[39], 1e-12) << "on both sides of the first vertex alike";
+    EXPECT_GT(w[39], 1.5);
+}
+
+TEST(Weight, TellsOfKindsThatThereAreNot) {
+    const Strokes in = strokes_in(kHalf, {line()});
+    try {
+        run_on_strokes("weight", {{"by_kind", Json{{"creese", 1}}}}, in);
+        FAIL();
+    } catch (const Failure& f) {
+        EXPECT_THAT(f.error().what, HasSubstr("there is no kind 'creese'; did you mean 'crease'?"));
+    }
+}
+
+}  // namespace
+}  // namespace keyline::testing

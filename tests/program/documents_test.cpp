@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/program.h"
+
+#include <gtest/gtest.h>
+#include <sstream>
+
+// The commands that the documents show, run on what is shipped, and the examples of the manual.
+
+namespace keyline::test {
+
+namespace {
+
+// Lines of a document that are a command of Keyline's, as its arguments.
+std::vector<std::vector<std::string>> commands_in(const std::string& text) {
+    std::vector<std::vector<std::string>> commands;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("    keyline ")) continue;
+        std::erase(line, '\'');  // a shell's; no argument holds blanks
+        std::istringstream words(line.substr(0, line.find('#')));
+        std::vector<std::string> arguments;
+        for (std::string word; words >> word;) arguments.push_back(word);
+        commands.emplace_back(arguments.begin() + 1, arguments.end());
+    }
+    return commands;
+}
+
+struct Block {
+    std::string language, text;
+};
+
+std::vector<Block> blocks_in(const std::string& document) {
+    std::vector<Block> blocks;
+    std::istringstream lines(document);
+    bool is_open = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("```")) {
+            is_open = !is_open;
+            if (is_open) blocks.push_back({line.substr(3), ""});
+        } else if (is_open) {
+            blocks.back().text += line + '\n';
+        }
+    }
+    return blocks;
+}
+
+// An example is a graph, or lines of its nodes.
+std::string graph_of(const std::string& example) {
+    if (example.starts_with("{\n  \"keyline\"")) return example;
+    return R"({ "keyline": 1, "nodes": { "render": { "type": "read", "file": "plates/street.####.exr" },
+                "out": { "type": "write", "in": "render", "file": "out.####.exr" },
+    )" + example +
+           "}}";
+}
+
+// Without their places, which the documents leave out, and without warnings.
+std::string errors_of(const std::string& messages) {
+    std::string errors;
+    std::istringstream lines(messages);
+    for (std::string line; std::getline(lines, line);)
+        if (const auto at = line.find("error: "); at != std::string::npos) errors += line.substr(at) + '\n';
+    return errors;
+}
+
+class Documents : public ProgramTest {
+protected:
+    // Laid out as in the repository.
+    Documents() {
+        fs::create_directory(folder() / "graphs");
+        fs::create_symlink(plates(), folder() / "graphs" / "plates");
+        fs::create_symlink(plates().parent_path() / "groups", folder() / "graphs" / "groups");
+        for (const auto& entry : fs::directory_iterator(plates().parent_path()))
+            if (entry.path().extension() == ".json")
+                fs::copy(entry.path(), folder() / "graphs" / entry.path().filename());
+    }
+
+    void expect_that_commands_work(const std::string& document) const {
+        const auto commands = commands_in(document);
+        EXPECT_FALSE(commands.empty());
+        for (const auto& arguments : commands) {
+            const Outcome run = keyline(arguments);
+            std::string all;
+            for (const std::string& a : arguments) all += a + ' ';
+            EXPECT_EQ(run.status, 0) << all << ": " << run.err;
+        }
+    }
+};
+
+TEST_F(Documents, TheReadmesGraphAndCommandsWork) {
+    const std::string readme = read(fs::path(KEYLINE_DOCS).parent_path() / "README.md");
+    const std::size_t begin = readme.find("```json\n") + 8;
+    write("toon.json", readme.substr(begin, readme.find("```", begin) - begin));
+    fs::create_symlink(plates(), folder() / "plates");
+    expect_that_commands_work(readme);
+    EXPECT_TRUE(exists("out/toon.0001.exr"));
+}
+
+TEST_F(Documents, TheCookbooksCommandsWork) {
+    expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "cookbook.md"));
+}
+
+TEST_F(Documents, TheManualsCommandsWork) {
+    expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "graphs.md"));
+}
+
+TEST_F(Documents, TheManualsExamplesAreSoundOrToldAsItSays) {
+    fs::create_symlink(plates(), folder() / "plates");
+    fs::create_symlink(plates().parent_path() / "groups", folder() / "groups");
+    const std::vector<Block> blocks = blocks_in(read(fs::path(KEYLINE_DOCS) / "graphs.md"));
+    std::size_t examples = 0;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (blocks[i].language != "json") continue;
+        const bool is_wrong = i + 1 < blocks.size() && blocks[i + 1].language == "text";
+        write("example.json", graph_of(blocks[i].text));
+        const Outcome run = keyline({"check", "example.json"});
+        EXPECT_EQ(errors_of(run.err), is_wrong ? blocks[i + 1].text : "") << blocks[i].text << run.err;
+        EXPECT_EQ(run.status == 0, !is_wrong) << blocks[i].text;
+        ++examples;
+    }
+    EXPECT_GT(examples, 0U);
+}
+
+TEST_F(Documents, TheManualIsTheProgramsHelp) {
+    const Outcome run = keyline({"help", "graphs"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.out, read(fs::path(KEYLINE_DOCS) / "graphs.md"));
+}
+
+}  // namespace
+
+}  // namespace keyline::test

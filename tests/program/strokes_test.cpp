@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/program.h"
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+// Strokes in files: to scripts and back.
+
+namespace keyline::test {
+
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kThree = R"({
+"strokes": 1, "display": [0, 0, 40, 30], "window": [0, 0, 40, 30],
+"objects": { "0000000a": "cup" },
+"lines": [
+  { "kind": "outline", "near": "cup", "points": [[5, 5], [10, 5], [10, 10]], "closed": true, "width": 2 },
+  { "kind": "crease", "near": "cup", "points": [[20, 5], [25, 6]], "width": [1, 2.5] },
+  { "kind": "shadow", "points": [[20, 15], [25, 16]] }
+]
+})";
+
+// What artists' scripts do: move, recolour, delete.
+constexpr const char* kScript = R"(
+import json, sys
+with open(sys.argv[1]) as f:
+    drawing = json.load(f)
+drawing["lines"] = [line for line in drawing["lines"] if line["kind"] != "shadow"]
+for line in drawing["lines"]:
+    if line["kind"] == "crease":
+        line["color"] = "#ff0000"
+    if line.get("near") == "cup":
+        line["points"] = [[x + 3, y - 2] for x, y in line["points"]]
+with open(sys.argv[2], "w") as f:
+    json.dump(drawing, f, indent=1)
+)";
+
+class StrokeFiles : public ProgramTest {
+protected:
+    // From one file to another, through the engine.
+    Outcome copy(const std::string& from, const std::string& to) const {
+        graph(fmt::format(R"("in":  {{ "type": "strokes_read", "file": "{}" }},
+            "out": {{ "type": "strokes_write", "in": "in", "file": "{}" }})",
+                          from, to));
+        return keyline({"render", "graph.json"});
+    }
+};
+
+TEST_F(StrokeFiles, SurviveAScriptThatMovesRecoloursAndDeletes) {
+    write("three.json", kThree);
+    write("edit.py", kScript);
+    ASSERT_EQ(copy("three.json", "out/plain.json").status, 0);
+    const std::string command =
+        fmt::format("cd '{}' && python3 edit.py out/plain.json edited.json", folder().string());
+    ASSERT_EQ(std::system(command.c_str()), 0) << "needs python3";
+    const Outcome run = copy("edited.json", "again.json");
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(read(folder() / "again.json"), R"({
+"strokes": 1,
+"display": [0, 0, 40, 30],
+"window": [0, 0, 40, 30],
+"objects": {"0000000a": "cup"},
+"lines": [
+{"kind": "outline", "near": "cup", "closed": true, "points": [[8, 3], [13, 3], [13, 8]], "width": 2},
+{"kind": "crease", "near": "cup", "color": [1, 0, 0], "points": [[23, 3], [28, 4]], "width": [1, 2.5]}
+]
+}
+)");
+    ASSERT_EQ(copy("again.json", "same.json").status, 0);
+    EXPECT_EQ(read(folder() / "same.json"), read(folder() / "again.json"));
+}
+
+TEST_F(StrokeFiles, AreReadByFrame) {
+    write("lines.0007.json", kThree);
+    graph(R"("in":  { "type": "strokes_read", "file": "lines.####.json" },
+        "out": { "type": "strokes_write", "in": "in", "file": "out.####.json" })");
+    EXPECT_EQ(keyline({"render", "graph.json", "--frames", "7"}).status, 0);
+    EXPECT_THAT(files(),
+                ElementsAre("graph.json", "lines.0007.json", "out.0007.json", "out.0007.json.origin.json"));
+    const Outcome run = keyline({"render", "graph.json", "--frames", "8"});
+    EXPECT_EQ(run.status, 3);
+    EXPECT_THAT(run.err, HasSubstr("lines.0008.json: no such file; on disk are frames 7"));
+}
+
+TEST_F(StrokeFiles, AreToldWithThePlaceOfWhatIsWrong) {
+    write("bad.json",
+          "{\"strokes\": 1, \"display\": [0, 0, 40, 30], \"window\": [0, 0, 40, 30],\n\"lines\": 3}");
+    const Outcome run = copy("bad.json", "out.json");
+    EXPECT_EQ(run.status, 3) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("bad.json:2:10: error: node 'in' (strokes_read)"));
+    EXPECT_THAT(run.err, HasSubstr("'lines' is 3, a number; it must be"));
+    EXPECT_THAT(files(), ElementsAre("bad.json", "graph.json")) << "and nothing was written";
+}
+
+// Reads it as any XML program does, and says what a person would see.
+constexpr const char* kLook = R"(
+import sys, xml.etree.ElementTree as tree
+svg, inkscape = "{http://www.w3.org/2000/svg}", "{http://www.inkscape.org/namespaces/inkscape}"
+root = tree.parse(sys.argv[1]).getroot()
+assert root.tag == svg + "svg", root.tag
+print(root.get("viewBox"))
+for layer in root.findall(svg + "g"):
+    assert layer.get(inkscape + "groupmode") == "layer"
+    print(layer.get(inkscape + "label"), *(f'{p.get("id")} of "{p.get("data-owner")}"' for p in layer))
+)";
+
+class SvgFiles : public StrokeFiles {
+protected:
+    // Writes the lines as SVG and says what is in it.
+    std::string look_at(const std::string& parameters) const {
+        graph(fmt::format(R"("in":  {{ "type": "strokes_read", "file": "three.json" }},
+            "out": {{ "type": "svg", "in": "in", "file": "three.svg" {} }})",
+                          parameters));
+        const Outcome run = keyline({"render", "graph.json"});
+        EXPECT_EQ(run.status, 0) << run.err;
+        write("look.py", kLook);
+        const std::string command =
+            fmt::format("cd '{}' && python3 look.py three.svg > seen.txt", folder().string());
+        EXPECT_EQ(std::system(command.c_str()), 0);
+        return read(folder() / "seen.txt");
+    }
+};
+
+TEST_F(SvgFiles, HaveLayersByKindWithTheFirstOnTop) {
+    write("three.json", kThree);
+    EXPECT_EQ(look_at(""), R"(0 0 40 30
+shadow stroke2 of ""
+crease stroke1 of "cup"
+outline stroke0 of "cup"
+)");
+    EXPECT_THAT(read(folder() / "three.svg"), HasSubstr("fill-rule=\"nonzero\""));
+}
+
+TEST_F(SvgFiles, HaveLayersByObjectWhateverItsName) {
+    std::string three = kThree;
+    for (std::size_t at = 0; (at = three.find("cup", at)) != std::string::npos; at += 10)
+        three.replace(at, 3, R"(c<u>&\"p)");
+    write("three.json", three);
+    EXPECT_EQ(look_at(R"(, "layers": "object")"), R"(0 0 40 30
+nobody stroke2 of ""
+c<u>&"p stroke1 of "c<u>&"p" stroke0 of "c<u>&"p"
+)");
+}
+
+TEST_F(SvgFiles, HavePathsWithAWidth) {
+    write("three.json", kThree);
+    look_at(R"(, "width": "stroke", "color": "#804020")");
+    const std::string svg = read(folder() / "three.svg");
+    EXPECT_THAT(svg, HasSubstr("stroke=\"#804020\" stroke-opacity=\"1\" stroke-width=\"1.75\""));
+    EXPECT_THAT(svg, HasSubstr("d=\"M20,5 C21.67,5.33 23.33,5.67 25,6\""));
+}
+
+}  // namespace
+
+}  // namespace keyline::test
