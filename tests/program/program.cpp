@@ -12,7 +12,6 @@
 #include <spawn.h>
 #include <sstream>
 #include <stdexcept>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
@@ -75,9 +74,11 @@ Process::Process(const std::vector<std::string>& arguments, const RunOptions& op
               "stdin");
     for (const int stream : options.closed)
         check(posix_spawn_file_actions_addclose(&actions, stream), "close");
-    std::vector<std::string> all{KEYLINE_PROGRAM}, environment = environment_with(options.environment);
+    std::vector<std::string> all, environment = environment_with(options.environment);
+    if (!options.through.empty()) all.push_back(options.through.string());
+    all.emplace_back(KEYLINE_PROGRAM);
     all.insert(all.end(), arguments.begin(), arguments.end());
-    check(posix_spawn(&pid_, KEYLINE_PROGRAM, &actions, nullptr, pointers(all).data(),
+    check(posix_spawn(&pid_, all[0].c_str(), &actions, nullptr, pointers(all).data(),
                       pointers(environment).data()),
           "posix_spawn");
     posix_spawn_file_actions_destroy(&actions);
@@ -119,12 +120,10 @@ void Process::close_standard_error() {
 Outcome Process::wait() {
     for (std::string more = read_some(); !more.empty(); more = read_some()) read_ += more;
     int status = 0;
-    rusage usage = {};
-    if (wait4(pid_, &status, 0, &usage) != pid_) check(errno, "wait4");
+    if (waitpid(pid_, &status, 0) != pid_) check(errno, "waitpid");
     pid_ = -1;
     return {WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status),
-            own_out_ ? read_file(out_) : std::string(), read_,
-            static_cast<std::size_t>(usage.ru_maxrss) << 10};
+            own_out_ ? read_file(out_) : std::string(), read_};
 }
 
 fs::path plates() { return KEYLINE_PLATES; }

@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 struct Outcome {
     int status = -1;  // the exit status; minus the signal where one ended it
     std::string out, err;
-    std::size_t peak = 0;  // bytes of memory at most; of its largest process where it has helpers
 };
 
 struct RunOptions {
@@ -28,6 +27,7 @@ struct RunOptions {
     fs::path out = {};                          // where standard output goes; empty: into Outcome::out
     fs::path in = {};                           // what standard input is; empty: the tests' own
     std::vector<int> closed = {};               // of the descriptors 0, 1 and 2
+    fs::path through = {};                      // a program that runs it, with its own path and arguments
 };
 
 // A process under way.
