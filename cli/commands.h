@@ -19,6 +19,7 @@ void add_nodes(CLI::App& program, Chosen& chosen);
 void add_submit(CLI::App& program, Chosen& chosen);
 void add_verify(CLI::App& program, Chosen& chosen);
 void add_provenance(CLI::App& program, Chosen& chosen);
+void add_measure(CLI::App& program, Chosen& chosen);
 void add_info(CLI::App& program, Chosen& chosen);
 
 }  // namespace keyline::cli

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/measure/accuracy.h"
+#include "engine/measure/form.h"
+#include "tests/support/strokes.h"
+
+#include <cmath>
+#include <gmock/gmock.h>
+#include <numbers>
+
+// What the measures say of drawings of which it is known.
+
+namespace keyline::testing {
+namespace {
+
+using ::testing::SizeIs;
+
+constexpr Rect kFrame{0, 0, 100, 100};
+
+Strokes drawing(std::vector<Stroke> strokes) { return strokes_in(kFrame, std::move(strokes)); }
+
+Stroke line(double x0, double y0, double x1, double y1, StrokeKind kind = StrokeKind::kOutline) {
+    return stroke({{x0, y0}, {x1, y1}}, 1, kind);
+}
+
+// Clockwise, as seen, as outlines run.
+Stroke circle(double radius, double width = 1) {
+    Places places;
+    const auto count = static_cast<int>(2 * std::numbers::pi * radius);
+    for (int i = 0; i < count; ++i) {
+        const double a = 2 * std::numbers::pi * i / count;
+        places.emplace_back(50 + radius * std::cos(a), 50 + radius * std::sin(a));
+    }
+    return stroke(places, width, StrokeKind::kOutline, true);
+}
+
+Accuracy against(const Strokes& drawn, const Strokes& truth) { return accuracy_of(drawn, truth, {}); }
+
+TEST(Accuracy, OfTheTruthItselfIsPerfect) {
+    const Strokes truth = random_strokes(3, kFrame);
+    const Accuracy a = against(truth, truth);
+    EXPECT_EQ(a.recall, 1);
+    EXPECT_EQ(a.offsets.rms, 0);
+    EXPECT_THAT(a.missed.strokes, SizeIs(0));
+}
+
+TEST(Accuracy, OffsetsAreAcrossTheLineAndPositiveOutside) {
+    const Accuracy a = against(drawing({circle(20.25)}), drawing({circle(20)}));
+    EXPECT_EQ(a.precision, 1);
+    EXPECT_NEAR(a.offsets.bias, 0.25, 0.01);
+    EXPECT_NEAR(a.offsets.rms, 0.25, 0.01);
+    EXPECT_NEAR(a.offsets.most, 0.25, 0.02);
+    EXPECT_NEAR(a.offsets.robust, 1.4826 * 0.25, 0.02);
+    EXPECT_NEAR(against(drawing({circle(19.75)}), drawing({circle(20)})).offsets.bias, -0.25, 0.01);
+}
+
+TEST(Accuracy, TellsHowMuchIsDrawnAndHowMuchOfItIsTrue) {
+    const Accuracy a = against(drawing({line(10, 10, 70, 10)}), drawing({line(30, 10, 110, 10)}));
+    EXPECT_NEAR(a.precision, 40.0 / 60, 0.02);
+    EXPECT_NEAR(a.recall, 40.0 / 80, 0.02);
+    ASSERT_THAT(a.extra.strokes, SizeIs(1));
+    EXPECT_NEAR(length_of(a.extra.strokes[0]), 20, 1.1);
+    ASSERT_THAT(a.missed.strokes, SizeIs(1));
+    EXPECT_NEAR(a.missed.strokes[0].vertices.front().x, 70, 1);
+}
+
+TEST(Accuracy, IsToldByKind) {
+    const Accuracy a = against(
+        drawing({line(10, 10, 90, 10), line(10, 30, 90, 30, StrokeKind::kCrease)}),
+        drawing({line(10, 10, 90, 10, StrokeKind::kFold), line(10, 50, 30, 50, StrokeKind::kCrease)}));
+    ASSERT_THAT(a.drawn, SizeIs(2));
+    EXPECT_EQ(a.drawn[0].kind, StrokeKind::kOutline);
+    EXPECT_NEAR(a.drawn[0].matched, 80, 1e-9);
+    EXPECT_EQ(a.drawn[1].matched, 0);
+    ASSERT_THAT(a.truth, SizeIs(2));
+    EXPECT_EQ(a.truth[0].kind, StrokeKind::kFold);
+    EXPECT_NEAR(a.truth[0].matched, 80, 1e-9);
+    EXPECT_NEAR(a.truth[1].length, 20, 1e-9);
+    EXPECT_EQ(a.truth[1].matched, 0);
+}
+
+TEST(Accuracy, ALineDrawnTwiceIsTrueOnce) {
+    const Strokes truth = drawing({line(10, 10, 90, 10)});
+    EXPECT_NEAR(against(drawing({line(10, 10.2, 90, 10.2), line(10, 9.5, 90, 9.5)}), truth).precision, 0.5,
+                0.01);
+    // …but where the truth has it twice, as Line Art draws an edge that is a contour and a crease.
+    const Strokes twice = drawing({line(10, 10, 90, 10), line(10, 10, 90, 10, StrokeKind::kCrease)});
+    EXPECT_EQ(against(truth, twice).recall, 1);
+}
+
+TEST(Accuracy, WhatIsTooFarOrTurnsAwayIsNotTheLine) {
+    const Strokes truth = drawing({line(10, 50, 90, 50)});
+    EXPECT_EQ(against(drawing({line(10, 51.1, 90, 51.1)}), truth).precision, 0);
+    EXPECT_EQ(against(drawing({line(90, 50.9, 10, 50.9)}), truth).precision, 1)
+        << "backwards is the same line";
+    EXPECT_EQ(against(drawing({line(50, 10, 50, 90)}), truth).precision, 0);
+    EXPECT_EQ(accuracy_of(drawing({line(10, 51.1, 90, 51.1)}), truth, {.within = 1.2}).precision, 1);
+}
+
+TEST(Accuracy, TheTruthIsLaidOverTheDrawing) {
+    const Strokes small = strokes_in({0, 0, 50, 50}, {line(5, 5, 45, 25)});
+    const Accuracy a = against(drawing({line(10, 10, 90, 50)}), small);
+    EXPECT_EQ(a.precision, 1);
+    EXPECT_EQ(a.recall, 1);
+    EXPECT_NEAR(a.offsets.rms, 0, 1e-9);
+}
+
+TEST(Form, OfACircleIsEvenAndClosed) {
+    Strokes of = drawing({circle(20, 3)});
+    of.strokes[0].near = 7;
+    const Form f = form_of(of);
+    EXPECT_NEAR(f.length, 2 * std::numbers::pi * 20, 0.2);
+    EXPECT_EQ(f.ends, 0U);
+    EXPECT_EQ(f.objects, 1U);
+    EXPECT_EQ(f.closed, 1U);
+    EXPECT_EQ(f.doubles, 0);
+    EXPECT_LT(f.ripple, 0.01);
+    EXPECT_EQ(f.width_slope, 0);
+    EXPECT_LE(f.curves, 8U);
+}
+
+TEST(Form, CountsEndsThatMeetNothing) {
+    const Form f = form_of(drawing({line(10, 10, 90, 10), line(50, 11, 50, 60), line(50, 80, 100, 80)}));
+    EXPECT_EQ(f.ends, 6U);
+    EXPECT_EQ(f.loose_ends, 4U) << "one meets a line, one the rim";
+    EXPECT_NEAR(f.loose_per_thousand(), 4 / 0.179, 0.1);
+}
+
+TEST(Form, AnOutlineWithAGapIsNotClosed) {
+    Strokes of = drawing({line(20, 20, 60, 20), line(60, 20, 60, 60), line(60, 60, 24, 20)});
+    for (Stroke& s : of.strokes) s.near = 7;
+    EXPECT_EQ(form_of(of).closed, 0U);
+    of.strokes[2].vertices.back().x = 20.5;
+    EXPECT_EQ(form_of(of).closed, 1U);
+    of.strokes[0].vertices.front().x = 1;
+    EXPECT_EQ(form_of(of).objects, 0U) << "it may go on outside";
+}
+
+TEST(Form, DoublesRunAlongALineBeforeThem) {
+    EXPECT_NEAR(form_of(drawing({line(10, 10, 90, 10), line(10, 11, 50, 11)})).doubles, 40.0 / 120, 0.02);
+    EXPECT_EQ(form_of(drawing({line(10, 10, 90, 10), line(50, 11, 10, 11)})).doubles, 0)
+        << "both sides of a wire";
+    EXPECT_EQ(form_of(drawing({line(10, 10, 90, 10), line(10, 12, 50, 12)})).doubles, 0);
+}
+
+TEST(Form, RippleIsWhatShakesWithinSixPixels) {
+    Places shaky, calm;
+    for (int i = 0; i < 80; ++i) {
+        shaky.emplace_back(10 + i, 50 + (i % 2 == 0 ? 0.2 : -0.2));
+        calm.emplace_back(10 + i, 50 + 5 * std::sin(i / 12.0));
+    }
+    EXPECT_NEAR(form_of(drawing({stroke(shaky)})).ripple, 0.2 / std::sqrt(3.0), 0.02) << "a zigzag";
+    EXPECT_LT(form_of(drawing({stroke(calm)})).ripple, 0.01);
+}
+
+TEST(Form, WidthIsJudgedAwayFromItsTips) {
+    Stroke wedge = stroke({{5, 50}, {30, 50}, {70, 50}, {95, 50}}, 2);
+    wedge.vertices[0].width = wedge.vertices[3].width = 0;
+    const Form even = form_of(drawing({wedge}));
+    EXPECT_NEAR(even.width_slope, 0, 1e-9);
+    wedge.vertices[2].width = 6;
+    const Form f = form_of(drawing({wedge}));
+    EXPECT_NEAR(f.width_slope, 0.1, 1e-6);
+    EXPECT_NEAR(f.width_spread, 0.05, 0.02);
+}
+
+}  // namespace
+}  // namespace keyline::testing
