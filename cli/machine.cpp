@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <latch>
+#include <malloc.h>
 #include <optional>
 #include <sched.h>
 #include <sstream>
@@ -158,6 +159,15 @@ Share usable_memory() {
     take("SLURM_MEM_PER_CPU", kMega * allotted("SLURM_CPUS_PER_TASK").value_or(1));
     take("CUE_MEMORY", 1024);
     return least;
+}
+
+void give_large_blocks_back() {
+    // A fixed threshold is never raised.  Twice as large a one left 4 MiB more behind in four frames at
+    // 1080p.
+    [[maybe_unused]] constexpr int kLarge = 128 << 10;
+#ifdef M_MMAP_THRESHOLD
+    mallopt(M_MMAP_THRESHOLD, kLarge);
+#endif
 }
 
 int startable_threads(int wanted) {

@@ -25,6 +25,11 @@ Share usable_threads();
 // least of them.
 Share usable_memory();
 
+// Has the allocator give large blocks back to the system as soon as they are free.  Left to itself, glibc
+// takes to keeping them in its heaps, where holes remain: more or fewer by the order in which threads free
+// theirs, so that --memory would hold on one day and not on the next.  Before anything is allocated.
+void give_large_blocks_back();
+
 // How many of so many threads the system lets this process start, itself counted.
 int startable_threads(int wanted);
 

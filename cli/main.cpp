@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
+#include "cli/machine.h"
 #include "cli/manual.h"
 #include "cli/report.h"
 #include "engine/color/color.h"
@@ -174,6 +175,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     fill_closed_streams();
+    give_large_blocks_back();
     try {
         return run(argc, argv);
     } catch (...) {
