@@ -12,58 +12,55 @@ namespace keyline {
 
 namespace {
 
-constexpr uint32_t kWhole = 1U << 16;  // a pixel
-
 uint32_t in_parts(float coverage) {
-    return coverage > 0 ? static_cast<uint32_t>(std::lround(std::min(coverage, 1.0F) * kWhole)) : 0;
+    return coverage > 0 ? static_cast<uint32_t>(std::min(coverage, 1.0F) * SharedPixels::kWhole + 0.5F) : 0;
 }
 
 }  // namespace
 
-void Shares::add(uint32_t id, uint32_t sum) {
-    int i = 0;
-    while (i < size_ && shares_[index(i)].id != id) ++i;
-    whole_ += sum;
-    if (i == kRoom) return;
-    if (i == size_) shares_[index(size_++)] = {id, 0};
-    shares_[index(i)].sum += sum;
+void ShareLists::begin(std::size_t pixel) {
+    pixel_ = pixel;
+    lists_[pixel] = {shares_.size(), 0};
 }
 
-void Shares::finish() {
-    const auto end = shares_.begin() + size_, most = shares_.begin() + std::min(size_, kMost);
-    std::partial_sort(shares_.begin(), most, end, [](const Share& a, const Share& b) {
-        return a.sum != b.sum ? a.sum > b.sum : a.id > b.id;
-    });
-    size_ = std::min(size_, kMost);
+void ShareLists::add(uint32_t id, uint64_t sum) {
+    for (std::size_t i = shares_.size(); i-- > lists_[pixel_].first;)
+        if (shares_[i].id == id) {
+            shares_[i].sum += sum;
+            return;
+        }
+    shares_.push_back({id, sum});
 }
 
-double Shares::share(uint32_t id) const {
-    for (int i = 0; i < size_; ++i)
-        if (const Share& s = shares_[index(i)]; s.id == id) return s.sum / whole_;
-    return 0;
+uint32_t ShareLists::end() {
+    List& list = lists_[pixel_];
+    list.count = shares_.size() - list.first;
+    Share most;
+    for (const Share& s : (*this)[pixel_])
+        if (s.sum > most.sum || (s.sum == most.sum && s.id > most.id)) most = s;
+    return most.id;
 }
 
-BlurredShares::BlurredShares(std::span<const View> views, bool integers, std::span<const uint32_t> weights,
-                             int reach, Scratch& scratch)
-    : views_(views), integers_(integers), weights_(weights), reach_(reach), rect_(views[0].rect) {
-    sole_ = scratch.take<uint64_t>(static_cast<std::size_t>(rect_.area()));
-    busy_ = scratch.take<uint8_t>(static_cast<std::size_t>(rect_.area()));
-    for (int y = rect_.y0; y < rect_.y1; ++y)
-        for (int x = rect_.x0; x < rect_.x1; ++x) sole_[place(x, y)] = find_sole(x, y);
-    mark_busy(scratch);
+SharedPixels::SharedPixels(std::span<const View> views, bool integers, int reach, Scratch& scratch)
+    : views_(views), integers_(integers), reach_(reach), rect_(views[0].rect) {
+    const auto area = static_cast<std::size_t>(rect_.area());
+    sole_ = scratch.take<uint32_t>(area);
+    mixed_ = scratch.take<uint8_t>(area);
+    for (int y = rect_.y0; y < rect_.y1; ++y) find_soles(y);
+    mark_near(scratch);
 }
 
-// take(id, parts) of each object in a pixel, and of nothing.
+uint32_t SharedPixels::id_at(const View& view, int x, int y) const {
+    const float id = *view.at(x, y);
+    return id == 0 && !integers_ ? 0 : std::bit_cast<uint32_t>(id);  // −0 is nothing, but for integers
+}
+
 template <class Take>
-void BlurredShares::each_share(int x, int y, const Take& take) const {
-    const auto id_of = [&](const View& v) {
-        const float id = *v.at(x, y);
-        return id == 0 && !integers_ ? 0 : std::bit_cast<uint32_t>(id);  // −0 is nothing, but for integers
-    };
-    if (views_.size() == 1) return take(id_of(views_[0]), kWhole);
+void SharedPixels::each(int x, int y, const Take& take) const {
+    if (views_.size() == 1) return take(id_at(views_[0], x, y), kWhole);
     uint32_t left = kWhole;
     for (std::size_t r = 0; r + 1 < views_.size() && left > 0; r += 2) {
-        const uint32_t id = id_of(views_[r]), parts = std::min(in_parts(*views_[r + 1].at(x, y)), left);
+        const uint32_t id = id_at(views_[r], x, y), parts = std::min(in_parts(*views_[r + 1].at(x, y)), left);
         if (parts == 0 || id == 0) continue;
         take(id, parts);
         left -= parts;
@@ -71,62 +68,150 @@ void BlurredShares::each_share(int x, int y, const Take& take) const {
     if (left > 0) take(0U, left);
 }
 
-uint64_t BlurredShares::find_sole(int x, int y) const {
-    // Most pixels are of their first object alone.
-    if (views_.size() > 1 && *views_[1].at(x, y) >= 1 && *views_[0].at(x, y) != 0)
-        return std::bit_cast<uint32_t>(*views_[0].at(x, y));
-    uint64_t sole = kMixed;
-    each_share(x, y, [&](uint32_t id, uint32_t parts) {
-        if (parts == kWhole) sole = id;
+// Most pixels are of their first object alone.
+void SharedPixels::find_soles(int y) {
+    if (views_.size() == 1) {
+        for (int x = rect_.x0; x < rect_.x1; ++x) find_sole(x, y);
+        return;
+    }
+    const float *id = views_[0].at(rect_.x0, y), *coverage = views_[1].at(rect_.x0, y);
+    uint32_t* sole = &sole_[place(rect_.x0, y)];
+    uint8_t* mixed = &mixed_[place(rect_.x0, y)];
+    for (int i = 0; i < rect_.width(); ++i) {
+        sole[i] = std::bit_cast<uint32_t>(id[i]);
+        mixed[i] = coverage[i] >= 1 && id[i] != 0 ? 0 : 1;
+    }
+    for (int i = 0; i < rect_.width(); ++i)
+        if (mixed[i] != 0) find_sole(rect_.x0 + i, y);
+}
+
+void SharedPixels::find_sole(int x, int y) {
+    uint8_t& mixed = mixed_[place(x, y)] = 1;
+    each(x, y, [&](uint32_t id, uint32_t parts) {
+        sole_[place(x, y)] = id;
+        if (parts == kWhole) mixed = 0;
     });
-    return sole;
 }
 
-// A pixel is busy where within the blur's reach there is a mixed one, or one that differs from a neighbour.
-void BlurredShares::mark_busy(Scratch& scratch) {
-    const auto rows = scratch.take<uint8_t>(busy_.size());
-    std::ranges::fill(busy_, uint8_t{0});
-    std::ranges::fill(rows, uint8_t{0});
-    for (int y = rect_.y0; y < rect_.y1; ++y)
-        for (int x = rect_.x0; x < rect_.x1; ++x) {
-            const uint64_t here = sole(x, y);
-            if (here != kMixed && (x + 1 == rect_.x1 || sole(x + 1, y) == here) &&
-                (y + 1 == rect_.y1 || sole(x, y + 1) == here))
-                continue;
-            const int from = std::max(x - reach_, rect_.x0), to = std::min(x + reach_ + 1, rect_.x1);
-            std::fill_n(rows.begin() + static_cast<std::ptrdiff_t>(place(from, y)), to - from, uint8_t{1});
-        }
-    for (int y = rect_.y0; y < rect_.y1; ++y)
+// Where a pixel is mixed or differs from the next one, to the right or below; whether any does.
+bool SharedPixels::mark_meetings(int y, std::span<uint8_t> meets) const {
+    const uint32_t *here = soles(y), *below = y + 1 < rect_.y1 ? soles(y + 1) : here;
+    const uint8_t* mixed = &mixed_[place(rect_.x0, y)];
+    const std::size_t n = meets.size();
+    uint8_t any = meets[n - 1] = mixed[n - 1] | static_cast<uint8_t>(here[n - 1] != below[n - 1]);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        meets[i] = static_cast<uint8_t>(mixed[i] | (here[i] != here[i + 1]) | (here[i] != below[i]));
+        any |= meets[i];
+    }
+    return any != 0;
+}
+
+void SharedPixels::mark_near(Scratch& scratch) {
+    const int width = rect_.width();
+    near_in_row_ = scratch.take<uint8_t>(sole_.size());
+    near_ = scratch.take<uint8_t>(sole_.size());
+    row_is_near_ = scratch.take<uint8_t>(index(rect_.height()));
+    const auto meets = scratch.take<uint8_t>(index(width));
+    for (const auto& marks : {near_in_row_, near_, row_is_near_}) std::ranges::fill(marks, uint8_t{0});
+    for (int y = rect_.y0; y < rect_.y1; ++y) {
+        if (!mark_meetings(y, meets)) continue;
+        uint8_t* in_row = &near_in_row_[place(rect_.x0, y)];
+        for (int i = 0; i < width; ++i)
+            if (meets[index(i)] != 0)
+                std::fill(in_row + std::max(i - reach_, 0), in_row + std::min(i + reach_ + 1, width),
+                          uint8_t{1});
         for (int v = std::max(y - reach_, rect_.y0); v < std::min(y + reach_ + 1, rect_.y1); ++v) {
-            const uint8_t* from = &rows[place(rect_.x0, v)];
-            uint8_t* to = &busy_[place(rect_.x0, y)];
-            for (int i = 0; i < rect_.width(); ++i) to[i] |= from[i];
+            row_is_near_[index(v - rect_.y0)] = 1;
+            uint8_t* to = &near_[place(rect_.x0, v)];
+            for (int i = 0; i < width; ++i) to[i] |= in_row[i];
         }
+    }
 }
 
-void BlurredShares::get(int x, int y, Shares& out) const {
-    out.clear();
-    for (int v = std::max(y - reach_, rect_.y0); v < std::min(y + reach_ + 1, rect_.y1); ++v)
-        for (int u = std::max(x - reach_, rect_.x0); u < std::min(x + reach_ + 1, rect_.x1); ++u) {
-            const auto row = index(v - y + reach_), column = index(u - x + reach_);
-            const uint32_t weight = weights_[row * index(2 * reach_ + 1) + column];
-            if (const uint64_t one = sole(u, v); one != kMixed)
-                out.add(static_cast<uint32_t>(one), weight * kWhole);
-            else
-                each_share(u, v, [&](uint32_t id, uint32_t parts) { out.add(id, weight * parts); });
+double BlurredRows::Row::share(std::size_t pixel, uint32_t id) const {
+    if (blurred_[pixel] == 0) return labels_[pixel] == id ? 1 : 0;
+    uint64_t of_it = 0, whole = 0;
+    for (const Share& s : lists_[pixel]) {
+        whole += s.sum;
+        if (s.id == id) of_it = s.sum;
+    }
+    return static_cast<double>(of_it) / static_cast<double>(whole);
+}
+
+BlurredRows::BlurredRows(const SharedPixels& pixels, std::span<const uint32_t> weights)
+    : pixels_(pixels),
+      weights_(weights),
+      whole_(index(pixels.rect().width())),
+      along_(weights.size(), Along{INT_MIN, ShareLists(index(pixels.rect().width()))}) {
+    const int reach = pixels.reach(), width = pixels.rect().width();
+    for (int i = 0; i < width; ++i)
+        for (int d = std::max(-reach, -i); d <= std::min(reach, width - 1 - i); ++d)
+            whole_[index(i)] += uint64_t{weights[index(d + reach)]} * SharedPixels::kWhole;
+}
+
+void BlurredRows::fill(int y, Row& row) {
+    const std::size_t n = row.labels_.size();
+    std::copy_n(pixels_.soles(y), n, row.labels_.begin());
+    std::copy_n(pixels_.near(y), n, row.blurred_.begin());
+    if (!pixels_.is_near_any(y)) return;
+    row.lists_.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+        if (row.blurred_[i] == 0) continue;
+        row.lists_.begin(i);
+        blur_across(i, y, row.lists_);
+        row.labels_[i] = row.lists_.end();
+    }
+}
+
+void BlurredRows::blur_across(std::size_t i, int y, ShareLists& lists) {
+    const Rect& rect = pixels_.rect();
+    const int reach = pixels_.reach();
+    for (int v = std::max(y - reach, rect.y0); v < std::min(y + reach + 1, rect.y1); ++v) {
+        const uint64_t weight = weights_[index(v - y + reach)];
+        if (pixels_.near_in_row(v)[i] == 0) {
+            lists.add(pixels_.soles(v)[i], weight * whole_[i]);
+            continue;
         }
-    out.finish();
+        for (const Share& s : along(v)[i]) lists.add(s.id, weight * s.sum);
+    }
+}
+
+const ShareLists& BlurredRows::along(int y) {
+    const Rect& rect = pixels_.rect();
+    Along& out = along_[index(y - rect.y0) % along_.size()];
+    if (out.y == y) return out.lists;
+    out.y = y;
+    out.lists.clear();
+    const uint8_t* near = pixels_.near_in_row(y);
+    for (int x = rect.x0; x < rect.x1; ++x) {
+        if (near[x - rect.x0] == 0) continue;
+        out.lists.begin(index(x - rect.x0));
+        blur_along(x, y, out.lists);
+        out.lists.end();
+    }
+    return out.lists;
+}
+
+void BlurredRows::blur_along(int x, int y, ShareLists& lists) const {
+    const Rect& rect = pixels_.rect();
+    const int reach = pixels_.reach();
+    for (int u = std::max(x - reach, rect.x0); u < std::min(x + reach + 1, rect.x1); ++u) {
+        const uint64_t weight = weights_[index(u - x + reach)];
+        const uint32_t sole = pixels_.soles(y)[u - rect.x0];
+        if (pixels_.shows(sole, u, y))
+            lists.add(sole, weight * SharedPixels::kWhole);
+        else
+            pixels_.each(u, y, [&](uint32_t id, uint32_t parts) { lists.add(id, weight * parts); });
+    }
 }
 
 std::vector<uint32_t> blur_weights(double sigma, int reach) {
-    const auto weight = [&](int x, int y) { return elementary::exp(-(x * x + y * y) / (2 * sigma * sigma)); };
+    const auto weight = [&](int x) { return elementary::exp(-(x * x) / (2 * sigma * sigma)); };
     double sum = 0;
-    for (int y = -reach; y <= reach; ++y)
-        for (int x = -reach; x <= reach; ++x) sum += weight(x, y);
+    for (int x = -reach; x <= reach; ++x) sum += weight(x);
     std::vector<uint32_t> out;
-    for (int y = -reach; y <= reach; ++y)
-        for (int x = -reach; x <= reach; ++x)
-            out.push_back(static_cast<uint32_t>(std::lround(weight(x, y) / sum * (1 << 14))));
+    for (int x = -reach; x <= reach; ++x)
+        out.push_back(static_cast<uint32_t>(std::lround(weight(x) / sum * (1 << 12))));
     return out;
 }
 

@@ -6,74 +6,128 @@
 #include "engine/base/index.h"
 #include "engine/node/node.h"
 
-#include <array>
+#include <climits>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 // How objects share blurred pixels.  All sums are of integers: they don't depend on an order, so that a
 // mirrored picture has the mirrored shares, bit for bit.
+//
+// Most pixels are one object's alone, far from any other: nothing is computed for them.  The others are
+// blurred along rows first and then across them, each as a short list of objects.
 
 namespace keyline {
 
-// The objects in a pixel with the most of it, the largest share first.
-class Shares {
-public:
-    struct Share {
-        uint32_t id = 0, sum = 0;
-    };
-    static constexpr int kMost = 6;
-
-    void clear() { size_ = 0, whole_ = 0; }
-    void add(uint32_t id, uint32_t sum);  // to what an object has already, while there is room
-    void finish();                        // after the last: largest first, the larger id of two equal ones
-    uint32_t label() const { return shares_[0].id; }
-    double share(uint32_t id) const;  // of the whole pixel
-
-private:
-    static constexpr int kRoom = 24;
-    std::array<Share, kRoom> shares_{};
-    int size_ = 0;
-    double whole_ = 0;
+struct Share {
+    uint32_t id = 0;  // 0: nothing
+    uint64_t sum = 0;
 };
 
-class BlurredShares {
+// What objects have of the pixels of a row, a list for each pixel that was given one.
+class ShareLists {
 public:
-    // `views` are ids and coverage in turn, or one channel of ids.  `weights` fill a square of
-    // 2 × reach + 1 pixels.
-    BlurredShares(std::span<const View> views, bool integers, std::span<const uint32_t> weights, int reach,
-                  Scratch& scratch);
+    explicit ShareLists(std::size_t pixels) : lists_(pixels) {}
 
-    bool has(int x, int y) const { return rect_.contains(x, y); }
+    void clear() { shares_.clear(); }
+    void begin(std::size_t pixel);        // its list; the one before has ended
+    void add(uint32_t id, uint64_t sum);  // to what the object has already
+    uint32_t end();                       // whose most of it is; of two equal ones the larger id
+    std::span<const Share> operator[](std::size_t pixel) const {
+        return std::span(shares_).subspan(lists_[pixel].first, lists_[pixel].count);
+    }
 
-    // The object that has the pixel for itself; kMixed where several share it.
-    static constexpr uint64_t kMixed = uint64_t{1} << 32;
-    uint64_t sole(int x, int y) const { return sole_[place(x, y)]; }
+private:
+    struct List {
+        std::size_t first = 0, count = 0;
+    };
+    std::vector<List> lists_;
+    std::vector<Share> shares_;
+    std::size_t pixel_ = 0;
+};
 
-    // Whether all pixels that are blurred into this one are one object's alone.
-    bool is_plain(int x, int y) const { return busy_[place(x, y)] == 0; }
+// The pixels of a region before they are blurred.
+class SharedPixels {
+public:
+    // `views` are ids and coverage in turn, or one channel of ids; a pixel is blurred with those within
+    // `reach` of it.
+    SharedPixels(std::span<const View> views, bool integers, int reach, Scratch& scratch);
 
-    void get(int x, int y, Shares& out) const;
+    const Rect& rect() const { return rect_; }
+    int reach() const { return reach_; }
+
+    // Whether the object has the pixel for itself.
+    bool shows(uint32_t id, int x, int y) const {
+        return rect_.contains(x, y) && mixed_[place(x, y)] == 0 && sole_[place(x, y)] == id;
+    }
+
+    // Rows, from the region's left.  Whose each pixel is; whether objects meet within reach of it in its row,
+    // and whether they do in any direction.
+    const uint32_t* soles(int y) const { return &sole_[place(rect_.x0, y)]; }
+    const uint8_t* near_in_row(int y) const { return &near_in_row_[place(rect_.x0, y)]; }
+    const uint8_t* near(int y) const { return &near_[place(rect_.x0, y)]; }
+    bool is_near_any(int y) const { return row_is_near_[index(y - rect_.y0)] != 0; }
+
+    // take(id, parts) of each object in a pixel, and of nothing: kWhole in all.
+    static constexpr uint32_t kWhole = 1U << 16;
+    template <class Take>
+    void each(int x, int y, const Take& take) const;
 
 private:
     std::size_t place(int x, int y) const {
         return index(y - rect_.y0) * index(rect_.width()) + index(x - rect_.x0);
     }
-    template <class Take>
-    void each_share(int x, int y, const Take& take) const;
-    uint64_t find_sole(int x, int y) const;
-    void mark_busy(Scratch& scratch);
+    uint32_t id_at(const View& view, int x, int y) const;
+    void find_soles(int y);
+    void find_sole(int x, int y);
+    bool mark_meetings(int y, std::span<uint8_t> meets) const;
+    void mark_near(Scratch& scratch);
 
     std::span<const View> views_;
     bool integers_;
-    std::span<const uint32_t> weights_;
     int reach_;
     Rect rect_;
-    std::span<uint64_t> sole_;
-    std::span<uint8_t> busy_;
+    std::span<uint32_t> sole_;
+    std::span<uint8_t> mixed_, near_in_row_, near_, row_is_near_;
 };
 
-// A Gaussian's, as integers that sum to about 2^14.
+// Rows of it, blurred.  They are asked for from top to bottom.
+class BlurredRows {
+public:
+    // `weights` are the blur's, by distance from −reach to reach.
+    BlurredRows(const SharedPixels& pixels, std::span<const uint32_t> weights);
+
+    // One row: who has most of each pixel, and how much an object has.
+    class Row {
+    public:
+        explicit Row(std::size_t pixels) : labels_(pixels), blurred_(pixels), lists_(pixels) {}
+        std::span<const uint32_t> labels() const { return labels_; }
+        double share(std::size_t pixel, uint32_t id) const;  // of the whole pixel
+
+    private:
+        friend BlurredRows;
+        std::vector<uint32_t> labels_;
+        std::vector<uint8_t> blurred_;  // whether it has a list; else it is its label's alone
+        ShareLists lists_;
+    };
+    void fill(int y, Row& row);
+
+private:
+    struct Along {
+        int y = INT_MIN;
+        ShareLists lists;
+    };
+    const ShareLists& along(int y);
+    void blur_along(int x, int y, ShareLists& lists) const;
+    void blur_across(std::size_t i, int y, ShareLists& lists);
+
+    const SharedPixels& pixels_;
+    std::span<const uint32_t> weights_;
+    std::vector<uint64_t> whole_;  // by column: what a pixel weighs that is one object's in its row
+    std::vector<Along> along_;     // rows blurred along themselves, by y modulo their number
+};
+
+// A Gaussian's, as integers that sum to about 2^12.
 std::vector<uint32_t> blur_weights(double sigma, int reach);
 
 }  // namespace keyline

@@ -5,6 +5,7 @@
 #include "engine/base/index.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -28,7 +29,10 @@ auto order_of(const Crossing& c) { return std::tuple(c.y, c.x, c.down); }
 
 class Linker {
 public:
-    explicit Linker(BorderMap& map) : map_(map), next_(map.crossings.size()) {}
+    explicit Linker(BorderMap& map) : map_(map), next_(map.crossings.size()) {
+        for (std::size_t i = 0; i < map.crossings.size(); ++i)
+            while (row_of(map.crossings[i].y) >= rows_.size()) rows_.push_back(i);
+    }
 
     void link() {
         for (const Crossing& c : map_.crossings) {
@@ -48,9 +52,17 @@ public:
     }
 
 private:
+    std::size_t row_of(int y) const { return index(y - map_.crossings.front().y); }
+
     int find(int x, int y, bool down) const {
-        const auto it = std::ranges::lower_bound(map_.crossings, std::tuple(y, x, down), {}, order_of);
-        return it != map_.crossings.end() && order_of(*it) == std::tuple(y, x, down)
+        if (y < map_.crossings.front().y || y > map_.crossings.back().y) return -1;
+        const std::size_t row = row_of(y);
+        const auto at = [&](std::size_t i) {
+            return map_.crossings.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        const auto end = row + 1 < rows_.size() ? at(rows_[row + 1]) : map_.crossings.end();
+        const auto it = std::ranges::lower_bound(at(rows_[row]), end, std::tuple(y, x, down), {}, order_of);
+        return it != end && order_of(*it) == std::tuple(y, x, down)
                    ? static_cast<int>(it - map_.crossings.begin())
                    : -1;
     }
@@ -61,8 +73,10 @@ private:
     void link_cell(int x, int y) {
         const std::array<Exit, 4> sides{Exit{find(x, y, false), 1}, Exit{find(x + 1, y, true), 0},
                                         Exit{find(x, y + 1, false), 0}, Exit{find(x, y, true), 1}};
-        std::vector<Exit> found;
-        std::ranges::copy_if(sides, std::back_inserter(found), [](Exit e) { return e.crossing >= 0; });
+        std::array<Exit, 4> crossed;
+        const auto end =
+            std::ranges::copy_if(sides, crossed.begin(), [](Exit e) { return e.crossing >= 0; }).out;
+        const std::span<const Exit> found(crossed.begin(), end);
         if (found.size() < 2 || next(found[0]).kind != Next::Kind::kRim) return;  // at the rim; or done
         if (found.size() == 2)
             join(found[0], found[1]);
@@ -75,7 +89,7 @@ private:
         next(b) = {Next::Kind::kCrossing, a.crossing, a.to};
     }
 
-    void meet(const std::vector<Exit>& exits) {
+    void meet(std::span<const Exit> exits) {
         MapPoint sum;
         for (const Exit& e : exits) {
             const MapPoint p = map_.at(e.crossing);
@@ -125,6 +139,7 @@ private:
     static int end_at(const Next& n) { return n.kind == Next::Kind::kJunction ? n.index : Border::kRim; }
 
     BorderMap& map_;
+    std::vector<std::size_t> rows_;          // the first crossing of each row, from the topmost's on
     std::vector<std::array<Next, 2>> next_;  // by crossing and exit
     std::vector<bool> seen_;
 };

@@ -92,26 +92,37 @@ private:
 // height of the row: nothing passes between them and the edges beside.
 class Cluster {
 public:
-    Cluster(std::span<const Edge> edges, int winding, Cells& cells)
-        : edges_(edges), winding_(winding), cells_(cells) {
+    explicit Cluster(Cells& cells) : cells_(cells) {}
+
+    // The borders of what is covered go to the cells.  Returns the winding on the right.
+    int add(std::span<Edge> edges, int winding) {
+        left_ = winding;
+        find_heights(edges);
+        std::ranges::sort(edges, {}, &Edge::y0);
+        active_.clear();
+        auto next = edges.begin();
+        for (std::size_t i = 1; i < heights_.size(); ++i) {
+            const int64_t top = heights_[i - 1], bottom = heights_[i];
+            std::erase_if(active_, [&](const Edge& e) { return e.y1 < bottom; });
+            for (; next != edges.end() && next->y0 <= top; ++next)
+                if (next->y1 >= bottom) active_.push_back(*next);
+            winding = add_between(top, bottom);
+        }
+        return winding;
+    }
+
+private:
+    void find_heights(std::span<const Edge> edges) {
+        heights_.clear();
         for (const Edge& e : edges) heights_.insert(heights_.end(), {e.y0, e.y1});
         std::ranges::sort(heights_);
         heights_.erase(std::unique(heights_.begin(), heights_.end()), heights_.end());
     }
 
-    // The borders of what is covered go to the cells.  Returns the winding on the right.
-    int add() {
-        int winding = winding_;
-        for (std::size_t i = 1; i < heights_.size(); ++i) winding = add_between(heights_[i - 1], heights_[i]);
-        return winding;
-    }
-
-private:
     // No edge ends between the heights.  Where some cross, they are parted until they don't, or all is flat.
     int add_between(int64_t top, int64_t bottom) {
         parts_.clear();
-        for (const Edge& e : edges_)
-            if (e.y0 <= top && e.y1 >= bottom) parts_.push_back(e.part(top, bottom));
+        for (const Edge& e : active_) parts_.push_back(e.part(top, bottom));
         std::ranges::sort(parts_, {}, [](const Edge& e) { return std::tuple(e.x0 + e.x1, e.x0, e.sign); });
         const auto cross = [](const Edge& a, const Edge& b) { return a.x0 > b.x0 || a.x1 > b.x1; };
         if (bottom - top > 1 && std::ranges::adjacent_find(parts_, cross) != parts_.end()) {
@@ -119,7 +130,7 @@ private:
             add_between(top, middle);
             return add_between(middle, bottom);
         }
-        int winding = winding_;
+        int winding = left_;
         for (const Edge& e : parts_) {
             const bool covered = winding != 0;
             winding += e.sign;
@@ -131,11 +142,10 @@ private:
         return winding;
     }
 
-    std::span<const Edge> edges_;
-    int winding_;
     Cells& cells_;
+    int left_ = 0;  // the winding there
     std::vector<int64_t> heights_;
-    std::vector<Edge> parts_;
+    std::vector<Edge> active_, parts_;
 };
 
 class Filler {
@@ -206,7 +216,7 @@ private:
                 right = std::max(right, row[i].edge.right());
             }
             cells_.begin(left, right + 1, winding != 0);
-            winding = Cluster(edges_, winding, cells_).add();
+            winding = cluster_.add(edges_, winding);
             add_span(y, left, right + 1, out_.covers.size());
             if (winding != 0 && i < row.size()) add_span(y, right + 1, row[i].left, CoverageSpan::kWhole);
         }
@@ -225,6 +235,7 @@ private:
     std::vector<Piece> pieces_;
     std::vector<Edge> edges_;
     Cells cells_;
+    Cluster cluster_{cells_};
     Coverage out_;
 };
 

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 namespace keyline {
 
@@ -16,22 +18,32 @@ namespace {
 
 constexpr double kAstray = 0.75;  // pixels between two places of one border that can be true
 constexpr int kAside = 2;         // pixels from a border within which its sides are looked for
-constexpr std::size_t kRight = 1, kDown = 10,
-                      kPlanes = 9;  // outputs: the label, then what there is of a crossing
+// Outputs: the label, then what there is of a crossing with each neighbour.
+constexpr std::size_t kRight = 1, kDown = 10, kPlanes = 9;
+constexpr std::size_t kAlong = 1;  // of those: above 0 where there is one
 
 // Shares nearer to 0 and 1 than this are noise.
 double probit_of(double share) { return elementary::probit(std::clamp(share, 1e-4, 1 - 1e-4)); }
 
-double share_of(const Shares& shares, uint32_t a, uint32_t b) {
-    const double of_a = shares.share(a), of_b = shares.share(b);
+// A pixel, as it is blurred.
+struct Blurred {
+    const BlurredRows::Row& row;
+    std::size_t i;
+
+    uint32_t label() const { return row.labels()[i]; }
+    double share(uint32_t id) const { return row.share(i, id); }
+};
+
+double share_of(const Blurred& pixel, uint32_t a, uint32_t b) {
+    const double of_a = pixel.share(a), of_b = pixel.share(b);
     return of_a / (of_a + of_b);
 }
 
 // Both sides of borders, from the depth beside them.
 class Surfaces {
 public:
-    Surfaces(const BlurredShares& shares, std::span<const View> depth, double pixel_angle)
-        : shares_(shares), depth_(depth.empty() ? nullptr : depth.data()), angle_(pixel_angle) {}
+    Surfaces(const SharedPixels& pixels, std::span<const View> depth, double pixel_angle)
+        : pixels_(pixels), depth_(depth.empty() ? nullptr : depth.data()), angle_(pixel_angle) {}
 
     // Of the object `id` at the border that lies `distance` from the pixel's centre, in the direction
     // opposite to (dx, dy).
@@ -55,7 +67,7 @@ public:
 private:
     // Whether the object has a pixel for itself.
     bool shows(uint32_t id, int x, int y) const {
-        return depth_->rect.contains(x, y) && shares_.has(x, y) && shares_.sole(x, y) == id;
+        return depth_->rect.contains(x, y) && pixels_.shows(id, x, y);
     }
 
     double near(int x, int y) const {
@@ -76,7 +88,7 @@ private:
         return static_cast<float>(1 / std::sqrt(1 + tilt2));
     }
 
-    const BlurredShares& shares_;
+    const SharedPixels& pixels_;
     const View* depth_;
     double angle_;
 };
@@ -104,42 +116,17 @@ Crossing crossing_at(std::span<const View> outputs, std::size_t first, int x, in
     return c;
 }
 
-// A row of pixels, as it is blurred.
-class SharesRow {
-public:
-    SharesRow(const BlurredShares& shares, int x0, int x1) : all_(shares), x0_(x0), row_(index(x1 - x0)) {}
-
-    void move_to(int y) {
-        for (std::size_t i = 0; i < row_.size(); ++i) {
-            const int x = x0_ + static_cast<int>(i);
-            if (all_.is_plain(x, y)) {
-                row_[i].clear();
-                row_[i].add(static_cast<uint32_t>(all_.sole(x, y)), 1);
-            } else {
-                all_.get(x, y, row_[i]);
-            }
-        }
-    }
-    const Shares& operator[](int x) const { return row_[index(x - x0_)]; }
-    void swap(SharesRow& other) noexcept { row_.swap(other.row_); }
-
-private:
-    const BlurredShares& all_;
-    int x0_;
-    std::vector<Shares> row_;
-};
-
 // Where a share is a half, of which p and q have so much.
 double half_between(double p, double q) { return probit_of(p) / (probit_of(p) - probit_of(q)); }
 
 // Where an object alone has half; `otherwise` where that is not at this crossing.
-float half_of(uint32_t id, const Shares& p, const Shares& q, double otherwise) {
+float half_of(uint32_t id, const Blurred& p, const Blurred& q, double otherwise) {
     const double along = half_between(p.share(id), q.share(id));
     return static_cast<float>(std::fabs(along - otherwise) < kAstray ? along : otherwise);
 }
 
 // Between two neighbours whose labels differ.
-Crossing between(const Surfaces& surfaces, const Shares& p, const Shares& q, int x, int y, bool down) {
+Crossing between(const Surfaces& surfaces, const Blurred& p, const Blurred& q, int x, int y, bool down) {
     Crossing out{x, y, down, 0, 0, {}};
     const uint32_t a = p.label(), b = q.label();
     const double from = share_of(p, a, b), to = share_of(q, a, b);
@@ -165,23 +152,29 @@ Halo FindCrossings::halo() const {
     return {reach, reach};
 }
 
+// Where there is none, only the outputs that say so are written.
 void FindCrossings::compute(const Inputs& in, Outputs out, Scratch& scratch) const {
-    const BlurredShares shares(in.slot(0), options_.integers, weights_, reach_, scratch);
-    const Surfaces surfaces(shares, in.slot(1), options_.pixel_angle);
-    const Rect& rect = out[0].rect;
-    const Rect with_next = intersect(Rect{rect.x0, rect.y0, rect.x1 + 1, rect.y1 + 1}, in.slot(0)[0].rect);
-    SharesRow here(shares, with_next.x0, with_next.x1), below(shares, with_next.x0, with_next.x1);
-    below.move_to(rect.y0);
+    const SharedPixels pixels(in.slot(0), options_.integers, reach_, scratch);
+    const Surfaces surfaces(pixels, in.slot(1), options_.pixel_angle);
+    BlurredRows rows(pixels, weights_);
+    const Rect &rect = out[0].rect, &all = pixels.rect();
+    const auto left = index(rect.x0 - all.x0), width = index(rect.width());
+    BlurredRows::Row here(index(all.width())), below(index(all.width()));
+    rows.fill(rect.y0, below);
     for (int y = rect.y0; y < rect.y1; ++y) {
-        here.swap(below);
-        if (y + 1 < with_next.y1) below.move_to(y + 1);
-        for (const MutView& plane : out) std::fill_n(plane.row(y), rect.width(), 0.0F);
-        for (int x = rect.x0; x < rect.x1; ++x) {
-            out[0].row(y)[x - rect.x0] = std::bit_cast<float>(here[x].label());
-            if (x + 1 < with_next.x1 && here[x].label() != here[x + 1].label())
-                put(out, kRight, between(surfaces, here[x], here[x + 1], x, y, false));
-            if (y + 1 < with_next.y1 && here[x].label() != below[x].label())
-                put(out, kDown, between(surfaces, here[x], below[x], x, y, true));
+        std::swap(here, below);
+        const bool has_below = y + 1 < all.y1;
+        if (has_below) rows.fill(y + 1, below);
+        std::memcpy(out[0].row(y), &here.labels()[left], width * sizeof(float));
+        for (const std::size_t plane : {kRight, kDown}) std::fill_n(out[plane + kAlong].row(y), width, 0.0F);
+        if (!pixels.is_near_any(y)) continue;
+        for (std::size_t i = left; i < left + width; ++i) {
+            const int x = all.x0 + static_cast<int>(i);
+            const uint32_t label = here.labels()[i];
+            if (x + 1 < all.x1 && label != here.labels()[i + 1])
+                put(out, kRight, between(surfaces, {here, i}, {here, i + 1}, x, y, false));
+            if (has_below && label != below.labels()[i])
+                put(out, kDown, between(surfaces, {here, i}, {below, i}, x, y, true));
         }
     }
 }
@@ -189,7 +182,8 @@ void FindCrossings::compute(const Inputs& in, Outputs out, Scratch& scratch) con
 std::vector<Crossing> crossings_in(std::span<const View> outputs, const Rect& block) {
     std::vector<Crossing> out;
     for (int y = block.y0; y < block.y1; ++y) {
-        const float *right = outputs[kRight + 1].at(block.x0, y), *down = outputs[kDown + 1].at(block.x0, y);
+        const float *right = outputs[kRight + kAlong].at(block.x0, y),
+                    *down = outputs[kDown + kAlong].at(block.x0, y);
         for (int x = block.x0; x < block.x1; ++x) {
             if (right[x - block.x0] != 0) out.push_back(crossing_at(outputs, kRight, x, y));
             if (down[x - block.x0] != 0) out.push_back(crossing_at(outputs, kDown, x, y));

@@ -52,7 +52,7 @@ public:
 private:
     Options options_;
     int reach_;
-    std::vector<uint32_t> weights_;  // of the blur, over a square
+    std::vector<uint32_t> weights_;  // of the blur, along a row or a column
 };
 
 // Those of a block of the outputs, in row-major order.

@@ -11,6 +11,7 @@ namespace keyline {
 namespace {
 
 constexpr double kCell = 4;       // pixels
+constexpr double kLong = 16;      // pixels: what a search of the cells around can reach
 constexpr double kSameWay = 0.8;  // cosine
 
 int64_t cell_of(double v) { return static_cast<int64_t>(std::floor(v / kCell)); }
@@ -21,10 +22,9 @@ uint64_t StrokeIndex::cell(int64_t column, int64_t row) {
     return uint64_t{static_cast<uint32_t>(row)} << 32 | static_cast<uint32_t>(column);
 }
 
-void StrokeIndex::add(const Stroke& stroke, const Rect& near) {
+void StrokeIndex::add(const Stroke& stroke) {
     const std::vector<StrokeVertex>& v = stroke.vertices;
     for (std::size_t i = 0; i + (stroke.closed ? 0 : 1) < v.size(); ++i) {
-        if (v[i].x < near.x0 || v[i].x > near.x1 || v[i].y < near.y0 || v[i].y > near.y1) continue;
         const StrokeVertex& next = v[(i + 1) % v.size()];
         const Piece piece{v[i].x,
                           v[i].y,
@@ -34,14 +34,18 @@ void StrokeIndex::add(const Stroke& stroke, const Rect& near) {
                           !stroke.closed && i == 0,
                           !stroke.closed && i + 2 == v.size(),
                           strokes_};
-        longest_ = std::max(longest_, std::fabs(piece.dx) + std::fabs(piece.dy));
-        pieces_[cell(cell_of(piece.x), cell_of(piece.y))].push_back(piece);
+        const double length = std::fabs(piece.dx) + std::fabs(piece.dy);
+        if (length <= kLong) longest_ = std::max(longest_, length);
+        (length > kLong ? long_ : pieces_[cell(cell_of(piece.x), cell_of(piece.y))]).push_back(piece);
+        ++count_;
     }
     ++strokes_;
 }
 
 template <class Visit>
 bool StrokeIndex::any_near(double x, double y, double reach, const Visit& visit) const {
+    for (const Piece& piece : long_)
+        if (visit(piece)) return true;
     const double far = reach + longest_;
     for (int64_t row = cell_of(y - far); row <= cell_of(y + far); ++row)
         for (int64_t column = cell_of(x - far); column <= cell_of(x + far); ++column)

@@ -18,8 +18,8 @@ public:
     // What is farther from a stroke than `within` pixels is not beside it.
     explicit StrokeIndex(double within) : within_(within) {}
 
-    void add(const Stroke& stroke) { add(stroke, kEverywhere); }
-    void add(const Stroke& stroke, const Rect& near);  // only what begins in there
+    void add(const Stroke& stroke);
+    std::size_t bytes() const { return count_ * sizeof(Piece); }  // about
 
     struct Along {
         double x = 0, y = 0, tx = 0, ty = 0;  // a place and a direction of length 1
@@ -34,14 +34,16 @@ public:
     // where there is none within `reach` pixels.
     double ahead(const Along& from, double reach, int except) const;
 
+    friend bool operator==(const StrokeIndex&, const StrokeIndex&) = default;
+
 private:
     struct Piece {
         double x, y, dx, dy;  // from a vertex to the next
         StrokeKind kind;
         bool first, last;  // of a stroke that is not closed
         int stroke;
+        friend bool operator==(const Piece&, const Piece&) = default;
     };
-    static constexpr Rect kEverywhere{-kMaxCoordinate, -kMaxCoordinate, kMaxCoordinate, kMaxCoordinate};
     static uint64_t cell(int64_t column, int64_t row);
     bool is_beside(const Piece& piece, const Along& along) const;
     // visit(piece) of all that may be within `reach` of a place, until it returns true; whether it did.
@@ -50,7 +52,9 @@ private:
 
     double within_;
     std::unordered_map<uint64_t, std::vector<Piece>> pieces_;  // by the cell that they begin in
-    double longest_ = 0;
+    std::vector<Piece> long_;                                  // that reach far from there
+    double longest_ = 0;                                       // of the others
+    std::size_t count_ = 0;
     int strokes_ = 0;
 };
 

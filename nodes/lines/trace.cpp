@@ -64,11 +64,34 @@ bool is_at_rim(const StrokeVertex& v, const Rect& extent) {
     return std::min({v.x - extent.x0, v.y - extent.y0, extent.x1 - v.x, extent.y1 - v.y}) < kNear + 0.6;
 }
 
-struct NoStrokes {
+// Lines that are there already, by place.
+struct LinesThere {
+    static constexpr const char* kind = "lines by place";
+    static constexpr double kBeside = 2.5;  // pixels
+
+    StrokeIndex index{kBeside};
+    std::size_t bytes() const { return index.bytes(); }
+    friend bool operator==(const LinesThere&, const LinesThere&) = default;
+};
+
+struct FindLinesThere {
+    struct Params {
+        Input strokes;
+        static constexpr auto fields = declare(input(&Params::strokes, "strokes", "", data<Strokes>()));
+    };
+    static LinesThere derive(const Inputs& in) {
+        LinesThere out;
+        for (const Stroke& s : in.datum<Strokes>(0).strokes) out.index.add(s);
+        return out;
+    }
+    static std::size_t datum_bytes() { return kUsualStrokes; }
+};
+
+struct NoLinesThere {
     struct Params {
         static constexpr auto fields = declare();
     };
-    static Strokes derive(const Inputs&) { return {}; }
+    static LinesThere derive(const Inputs&) { return {}; }
     static std::size_t datum_bytes() { return 0; }
 };
 
@@ -77,7 +100,7 @@ struct LinkPoints {
     struct Params {
         Input points, except;
         static constexpr auto fields = declare(input(&Params::points, "points", "", any_channels()),
-                                               input(&Params::except, "except", "", data<Strokes>()));
+                                               input(&Params::except, "except", "", data<LinesThere>()));
     };
     using State = std::vector<LinePoint>;
     using Partial = std::vector<LinePoint>;
@@ -85,7 +108,11 @@ struct LinkPoints {
     static State start(const Rect&) { return {}; }
     Partial map(const State&, const Inputs& in, const Rect& block, Scratch&) const {
         std::vector<LinePoint> points = points_in(in.slot(0), block, style.low);
-        drop_beside(in.datum<Strokes>(1), block, points);
+        const StrokeIndex& there = in.datum<LinesThere>(1).index;
+        std::erase_if(points, [&](const LinePoint& p) {
+            const MapPoint at = place(p);
+            return there.has({at.x, at.y, double{p.tx}, double{p.ty}, StrokeKind::kUser});
+        });
         return points;
     }
     static void fold(State& state, Partial&& found) { state.insert(state.end(), found.begin(), found.end()); }
@@ -113,17 +140,6 @@ struct LinkPoints {
 
 private:
     static MapPoint place(const LinePoint& p) { return {p.x + 0.5 + double{p.dx}, p.y + 0.5 + double{p.dy}}; }
-
-    // What lies along one of the strokes belongs to that.
-    static void drop_beside(const Strokes& strokes, const Rect& block, std::vector<LinePoint>& points) {
-        constexpr double kBeside = 2.5;  // pixels
-        StrokeIndex near(kBeside);
-        for (const Stroke& s : strokes.strokes) near.add(s, grow(block, {8, 8}));
-        std::erase_if(points, [&](const LinePoint& p) {
-            const MapPoint at = place(p);
-            return near.has({at.x, at.y, double{p.tx}, double{p.ty}, StrokeKind::kUser});
-        });
-    }
 
     Stroke stroke_of(const PointChain& chain) const {
         std::vector<MapPoint> places;
@@ -294,10 +310,11 @@ struct Trace {
         }
         const auto find =
             std::make_shared<const FindLinePoints>(feature(), gradient ? 0 : params.sigma, ids.integers);
-        const Stream except =
-            params.except ? builder.input(*params.except) : add_operation(builder, NoStrokes{}, {});
+        const Stream there = params.except
+                                 ? add_operation(builder, FindLinesThere{}, {builder.input(*params.except)})
+                                 : add_operation(builder, NoLinesThere{}, {});
         return add_operation(builder, LinkPoints{style, params.mode == Mode::kEdge},
-                             {found(builder, find, in, links), except});
+                             {found(builder, find, in, links), there});
     }
 
     const Params params;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/cryptomatte.h"
 #include "engine/kit/stroke_doubles.h"
+#include "engine/kit/stroke_index.h"
 #include "engine/kit/stroke_joints.h"
 #include "engine/node/datum.h"
 #include "engine/plan/planner.h"
@@ -73,6 +74,22 @@ TEST(Chain, ARingIsClosedAcrossItsGap) {
     EXPECT_TRUE(strokes[0].closed);
     for (const StrokeVertex& v : strokes[0].vertices)
         EXPECT_NEAR(std::hypot(v.x - 20, v.y - 20), 12, 0.2) << v.x << " " << v.y;
+}
+
+// What is looked up must not be searched for as far around as its longest piece reaches.
+TEST(Chain, LinesOfFarVerticesAreFoundAtOnce) {
+    Stroke far;
+    for (const double x : {-1e6, 1e6}) {
+        StrokeVertex v;
+        v.x = x;
+        far.vertices.push_back(v);
+    }
+    StrokeIndex index(2);
+    index.add(far);
+    for (int i = 0; i < 1000; ++i) {
+        EXPECT_TRUE(index.has({i + 0.5, 1.5, 1, 0}));
+        EXPECT_FALSE(index.has({i + 0.5, 2.5, 1, 0}));
+    }
 }
 
 TEST(Chain, OnlyOneKindOfOneOwnerIsJoined) {
