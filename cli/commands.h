@@ -16,6 +16,7 @@ void add_render(CLI::App& program, Chosen& chosen);
 void add_check(CLI::App& program, Chosen& chosen);
 void add_plan(CLI::App& program, Chosen& chosen);
 void add_nodes(CLI::App& program, Chosen& chosen);
+void add_schema(CLI::App& program, Chosen& chosen);
 void add_submit(CLI::App& program, Chosen& chosen);
 void add_verify(CLI::App& program, Chosen& chosen);
 void add_provenance(CLI::App& program, Chosen& chosen);

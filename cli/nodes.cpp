@@ -14,14 +14,12 @@ namespace {
 
 struct NodesArguments {
     std::string type;
-    bool markdown = false, schema = false;
+    bool markdown = false;
 };
 
 int run(const NodesArguments& arguments) {
     if (arguments.markdown) {
         print_result(reference_markdown());
-    } else if (arguments.schema) {
-        print_result(schema_json() + "\n");
     } else if (arguments.type.empty()) {
         print_result(node_list_text());
     } else if (is_group(arguments.type)) {
@@ -51,9 +49,7 @@ void add_nodes(CLI::App& program, Chosen& chosen) {
         command.add_option("TYPE", arguments->type, "A node type, or the file of a group")->type_name("");
     CLI::Option* markdown =
         command.add_flag("--markdown", arguments->markdown, "The whole reference as Markdown");
-    CLI::Option* schema = command.add_flag("--schema", arguments->schema, "A JSON Schema of graph files");
-    markdown->excludes(type, schema);
-    schema->excludes(type);
+    markdown->excludes(type);
     command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }
 

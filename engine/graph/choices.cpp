@@ -22,12 +22,14 @@ bool is_same(const Value& a, const Value& b) {
 
 void check_keys(const Value& declared, Diagnostics& diagnostics) {
     static const std::vector<std::string> known{"default", "choices", "about"};
-    for (const Member& m : declared.members)
+    for (const Member& m : declared.members) {
         if (std::ranges::find(known, m.key) == known.end()) {
             const std::string hint = did_you_mean(m.key, known);
             graph_error(diagnostics, m.key_place, "unknown key " + in_quotes(m.key),
                         hint.empty() ? "a variable with choices knows " + listed(known) : hint);
         }
+        if (m.key == "about") check_text(m, diagnostics);
+    }
 }
 
 std::vector<Value> read_choices(const Value& choices, Diagnostics& diagnostics) {

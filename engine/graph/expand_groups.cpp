@@ -64,6 +64,8 @@ private:
         if (const Value* enabled = node.object.find("enabled"))
             graph_error(diagnostics_, enabled->place, "a group has no 'enabled'", "choose with a variable",
                         node.title());
+        for (const Member& m : node.object.members)
+            if (m.key == "about") check_text(m, diagnostics_, node.title());
         std::erase_if(node.object.members, [](const Member& m) {
             return m.key == "type" || m.key == "about" || m.key == "enabled";
         });

@@ -26,8 +26,10 @@ public:
     void read() {
         static const std::vector<std::string> kKnown{"keyline", "about",     "inputs", "parameters",
                                                      "outputs", "variables", "nodes",  "$schema"};
-        for (const Member& m : group_.root.members)
+        for (const Member& m : group_.root.members) {
             if (std::ranges::find(kKnown, m.key) == kKnown.end()) unknown_key(m, kKnown);
+            if (m.key == "about" || m.key == "$schema") check_text(m, diagnostics_);
+        }
         const Value& nodes = *group_.root.find("nodes");
         if (!nodes.is(Kind::kObject))
             refuse(nodes.place,
@@ -69,12 +71,14 @@ private:
                                               m.value.shown(), listed(known)));
             return false;
         }
-        for (const Member& part : m.value.members)
+        for (const Member& part : m.value.members) {
             if (std::ranges::find(known, part.key) == known.end())
                 unknown_key(part, known);
             else if (part.key == "optional" && !part.value.is(Kind::kBool))
                 refuse(part.value.place,
                        fmt::format("'optional' is {}; it must be true or false", part.value.shown()));
+            if (part.key == "about") check_text(part, diagnostics_);
+        }
         return true;
     }
 
@@ -145,9 +149,13 @@ private:
 
     std::vector<TypeInfo::WordInfo> words_of(const Member& m) {
         std::vector<TypeInfo::WordInfo> out;
-        const Value* words = m.value.find("words");
-        if (words)
-            for (const Value& word : words->items) out.push_back({word.text, ""});
+        if (const Value* words = m.value.find("words"))
+            for (const Value& word : words->items) {
+                if (!word.is(Kind::kString))
+                    refuse(word.place,
+                           fmt::format("a word of '{}' is {}; it must be a string", m.key, word.shown()));
+                out.push_back({word.text, ""});
+            }
         if (out.empty()) refuse(m.value.place, fmt::format("'{}' is a word, and has no \"words\"", m.key));
         return out;
     }

@@ -51,9 +51,7 @@ void check_top_level(const Value& root, Diagnostics& diagnostics) {
             graph_error(diagnostics, m.key_place, "unknown key " + in_quotes(m.key),
                         hint.empty() ? "known are " + listed(known) : hint);
         }
-        if ((m.key == "about" || m.key == "$schema") && !m.value.is(Value::Kind::kString))
-            graph_error(diagnostics, m.value.place,
-                        fmt::format("'{}' is {}; it must be a string", m.key, m.value.shown()));
+        if (m.key == "about" || m.key == "$schema") check_text(m, diagnostics);
     }
     if (!root.find("nodes")) graph_error(diagnostics, root.place, "'nodes' is missing");
 }
@@ -153,9 +151,8 @@ private:
             error(type->place, "there is no node type " + in_quotes(type->text), near_type(type->text));
         else if (node.scope->outer && node.type->kind == NodeKind::kSink)
             error(type->place, "a group writes nothing", "write what it gives where it is used");
-        const Value* about = node.object.find("about");
-        if (about && !about->is(Value::Kind::kString))
-            error(about->place, fmt::format("'about' is {}; it must be a string", about->shown()));
+        for (const Member& m : node.object.members)
+            if (m.key == "about") check_text(m, diagnostics_, "node '" + node.id + "'");
         if (const Value* enabled = node.object.find("enabled")) node.enabled = *enabled;
         std::erase_if(node.object.members, [](const Member& m) {
             return m.key == "type" || m.key == "about" || m.key == "enabled";

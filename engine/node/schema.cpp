@@ -1,255 +1,265 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/base/identifier.h"
+#include "engine/json/json_reader.h"
 #include "engine/json/json_writer.h"
+#include "engine/json/make_value.h"
 #include "engine/node/reference.h"
 #include "engine/node/registry.h"
-#include "engine/params/computed.h"
+#include "engine/node/schema_values.h"
 
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 namespace keyline {
 
 namespace {
 
-// Any value may be a variable, which takes the variable's own type.
-constexpr const char* kVariable = "^\\$\\{[^{}]+\\}$";
-constexpr const char* kExpression = "^=";
-constexpr const char* kGroup = "\\.json$";
+// A graph file; what stands in "keyline.node" follows from the registry.  Whether it is a group is told by
+// `outputs`, as the loader does.
+constexpr const char* kGraph = R"json({
+  "$schema": "https://json-schema.org/draft/2020-12/schema",
+  "$id": "urn:keyline:graph:1",
+  "title": "Keyline graph",
+  "description": "A graph of nodes for keyline render, or with outputs a group: a node type for other graphs.",
+  "type": "object",
+  "required": ["keyline", "nodes"],
+  "properties": {
+    "$schema": { "description": "Where this schema lies.", "type": "string" },
+    "keyline": { "description": "The version of the format: 1.", "const": 1 },
+    "about": { "description": "What the graph is for, in words.", "type": "string" },
+    "variables": {
+      "description": "Values that have a name: ${name} in any string, name in an expression.",
+      "type": "object",
+      "propertyNames": { "$ref": "#/$defs/keyline.name", "not": { "const": "frame" } },
+      "additionalProperties": { "if": { "type": "object", "required": ["choices"] }, "then": { "$ref": "#/$defs/keyline.choice" } }
+    },
+    "include": {
+      "description": "Files of variables, one name or a list; each stands over what is before it.",
+      "anyOf": [
+        { "$ref": "#/$defs/keyline.file" },
+        { "type": "array", "items": { "$ref": "#/$defs/keyline.file" } }
+      ]
+    },
+    "frames": {
+      "description": "The frames of the shot, as 1001-1100: what first and last are in expressions.",
+      "type": "string",
+      "pattern": "^[ \t]*-?[0-9]+[ \t]*(-[ \t]*-?[0-9]+[ \t]*([x:][ \t]*0*[1-9][0-9]*[ \t]*)?)?(,[ \t]*-?[0-9]+[ \t]*(-[ \t]*-?[0-9]+[ \t]*([x:][ \t]*0*[1-9][0-9]*[ \t]*)?)?)*$"
+    },
+    "fps": {
+      "description": "Frames a second: what fps is in expressions.",
+      "type": "number", "exclusiveMinimum": 0
+    },
+    "ocio": { "description": "The OpenColorIO config, a file's name.", "$ref": "#/$defs/keyline.file" },
+    "inputs": {
+      "description": "Of a group: what links to it gives, by name; inside, the name is that of a node.",
+      "type": "object",
+      "propertyNames": { "$ref": "#/$defs/keyline.name" },
+      "additionalProperties": { "$ref": "#/$defs/keyline.input" }
+    },
+    "parameters": {
+      "description": "Of a group: what a node of its type takes, by name; inside, each is a variable.",
+      "type": "object",
+      "propertyNames": { "$ref": "#/$defs/keyline.name" },
+      "additionalProperties": { "$ref": "#/$defs/keyline.parameter" }
+    },
+    "outputs": {
+      "description": "What makes the file a group: links to nodes inside, by name; the first is what the group's id alone means.",
+      "type": "object", "minProperties": 1,
+      "propertyNames": { "$ref": "#/$defs/keyline.name" },
+      "additionalProperties": { "type": "string" }
+    },
+    "nodes": {
+      "description": "The nodes by id.",
+      "type": "object",
+      "propertyNames": { "$ref": "#/$defs/keyline.name" },
+      "additionalProperties": { "$ref": "#/$defs/keyline.node" }
+    }
+  },
+  "additionalProperties": false,
+  "if": { "required": ["outputs"] },
+  "then": {
+    "properties": {
+      "include": false, "frames": false, "fps": false, "ocio": false,
+      "nodes": { "additionalProperties": { "properties": { "type": { "not": { "$ref": "#/$defs/keyline.sink" } } } } }
+    }
+  },
+  "else": { "properties": { "inputs": false, "parameters": false } }
+})json";
 
-std::string id_pattern() { return fmt::format("^{}$", kIdentifierPattern); }
+constexpr const char* kDefinitions = R"json({
+  "keyline.choice": {
+    "description": "A variable with choices.",
+    "type": "object",
+    "required": ["default", "choices"],
+    "properties": {
+      "default": { "description": "Its value, one of the choices." },
+      "choices": {
+        "description": "The values that it may have.",
+        "type": "array", "minItems": 1,
+        "items": { "type": ["string", "number", "boolean"] }
+      },
+      "about": { "description": "What it is for, in words.", "type": "string" }
+    },
+    "additionalProperties": false
+  },
+  "keyline.input": {
+    "type": "object",
+    "properties": {
+      "about": { "description": "What it is for, in words.", "type": "string" },
+      "optional": { "description": "Whether it may be left out.", "type": "boolean" }
+    },
+    "additionalProperties": false
+  },
+  "keyline.parameter": {
+    "type": "object",
+    "required": ["type"],
+    "properties": {
+      "type": {
+        "description": "What it may be.",
+        "enum": ["number", "integer", "bool", "text", "file", "word", "pair", "color"]
+      },
+      "default": { "description": "Its value where none is given; without one it must be given." },
+      "range": {
+        "description": "[LEAST, MOST]",
+        "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
+      },
+      "words": {
+        "description": "The words that it may be.",
+        "type": "array", "items": { "type": "string" }, "minItems": 1
+      },
+      "about": { "description": "What it is for, in words.", "type": "string" }
+    },
+    "additionalProperties": false,
+    "allOf": [
+      {
+        "if": { "properties": { "type": { "const": "word" } }, "required": ["type"] },
+        "then": { "required": ["words"] }
+      },
+      {
+        "if": { "properties": { "type": { "enum": ["text", "word", "file"] } } },
+        "then": { "properties": { "default": { "type": "string" } } }
+      },
+      {
+        "if": { "properties": { "type": { "const": "file" } } },
+        "then": { "properties": { "default": { "minLength": 1 } } }
+      },
+      {
+        "if": { "properties": { "type": { "enum": ["number", "integer"] } } },
+        "then": { "properties": { "default": { "type": "number" } } }
+      },
+      {
+        "if": { "properties": { "type": { "const": "integer" } } },
+        "then": { "properties": { "default": { "type": "integer" } } }
+      },
+      {
+        "if": { "properties": { "type": { "const": "bool" } } },
+        "then": { "properties": { "default": { "type": "boolean" } } }
+      },
+      {
+        "if": { "properties": { "type": { "const": "pair" } } },
+        "then": { "properties": { "default": { "anyOf": [
+          { "type": "number" },
+          { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+        ] } } }
+      },
+      {
+        "if": { "properties": { "type": { "const": "color" } } },
+        "then": { "properties": { "default": { "anyOf": [
+          { "type": "string", "pattern": "^#[0-9A-Fa-f]{6}$" },
+          { "type": "array", "items": { "type": "number" }, "minItems": 3, "maxItems": 3 }
+        ] } } }
+      }
+    ]
+  },
+  "keyline.group": {
+    "description": "A node whose type is a graph file.  What it takes, that file says.",
+    "properties": {
+      "about": { "description": "What the node is for, in words.", "type": "string" },
+      "enabled": false
+    }
+  }
+})json";
 
-std::string input_pattern(bool is_data) {
-    return fmt::format("^({}|\\$\\{{[^{{}}]+\\}}){}$", kIdentifierPattern, is_data ? "" : "(:.+)?");
+constexpr const char* kGroupFile =
+    R"json({ "description": "The file of a group.", "pattern": "\\.json$" })json";
+constexpr const char* kOwn = R"json({{
+  "type": {{ "const": "{}" }},
+  "about": {{ "description": "What the node is for, in words.", "type": "string" }}
+}})json";
+
+FieldInfo enabled_field() {
+    return {"enabled",
+            "Where it is false, the node passes its leading input on; a node that writes writes nothing.",
+            TypeInfo::boolean(), truth_value(true)};
 }
 
 class Schema {
 public:
     std::string text() {
         json_.begin_object();
-        json_.field("$schema", "https://json-schema.org/draft/2020-12/schema");
-        json_.field("title", "Keyline graph");
-        json_.field("type", "object");
-        json_.key("required").list(std::vector<std::string>{"keyline", "nodes"});
-        json_.key("properties").begin_object();
-        json_.key("$schema").begin_object().field("type", "string").end_object();
-        json_.key("keyline").begin_object().field("const", 1).end_object();
-        for (const char* name : {"about", "ocio"})
-            json_.key(name).begin_object().field("type", "string").end_object();
-        variables();
-        include();
-        json_.key("frames").begin_object().field("type", "string").end_object();
-        json_.key("fps").begin_object().field("type", "number").field("exclusiveMinimum", 0).end_object();
-        nodes();
-        json_.end_object().field("additionalProperties", false);
-        definitions();
-        return json_.end_object().text();
+        members(parse_json(kGraph, "graph"));
+        json_.key("$defs").begin_object();
+        members(parse_json(kDefinitions, "definitions"));
+        write_schema_definitions(json_);
+        node();
+        sink();
+        for (const auto& [name, type] : registry().types()) {
+            json_.key(name).begin_object().field("description", type.help);
+            write_schema_of_fields(json_, fields_of(type), own_of(name));
+            json_.end_object();
+        }
+        return json_.end_object().end_object().text();
     }
 
 private:
-    void variables() {
-        json_.key("variables").begin_object().field("type", "object");
-        json_.key("propertyNames").begin_object().field("pattern", id_pattern()).end_object();
-        json_.end_object();
+    void members(const Value& object) {
+        for (const Member& m : object.members) json_.field(m.key, m.value);
     }
 
-    void include() {
-        json_.key("include").begin_object().key("anyOf").begin_array();
-        file();
-        json_.begin_object().field("type", "array").key("items");
-        file();
-        json_.end_object().end_array().end_object();
-    }
-
-    void nodes() {
-        json_.key("nodes").begin_object().field("type", "object");
-        json_.key("propertyNames").begin_object().field("pattern", id_pattern()).end_object();
-        json_.key("additionalProperties").begin_object();
-        json_.field("type", "object").key("required").list(std::vector<std::string>{"type"});
+    // One definition a type, chosen by `type`: an editor that knows it completes and checks just that.
+    void node() {
+        json_.key("keyline.node").begin_object().field("type", "object");
+        json_.key("required").list(std::vector<std::string>{"type"});
         json_.key("properties").begin_object().key("type").begin_object();
+        json_.field("description", "The node's type, or the file of a group.").field("type", "string");
         json_.key("anyOf").begin_array();
-        json_.begin_object().key("enum").list(registry().names()).end_object();
-        text(kGroup);
+        write_schema_of_words(json_, types());
+        json_.value(parse_json(kGroupFile, "group"));
         json_.end_array().end_object().end_object();
         json_.key("allOf").begin_array();
-        for (const std::string& name : registry().names()) choice(name);
-        json_.end_array().end_object().end_object();
+        choice("keyline.group", "pattern", "\\.json$");
+        for (const std::string& name : registry().names()) choice(name, "const", name);
+        json_.end_array().end_object();
     }
 
-    // One object a type, chosen by `type`: an editor that knows it completes and checks just that.
-    void choice(const std::string& name) {
-        json_.begin_object().key("if").begin_object().key("properties").begin_object();
-        json_.key("type").begin_object().field("const", name).end_object();
+    // Where there is no `type`, that is the fault, and not what each of them would want.
+    void choice(const std::string& definition, const char* keyword, const std::string& type) {
+        json_.begin_object().key("if").begin_object();
+        json_.key("required").list(std::vector<std::string>{"type"});
+        json_.key("properties").begin_object().key("type").begin_object().field(keyword, type).end_object();
         json_.end_object().end_object();
-        json_.key("then").begin_object().field("$ref", "#/$defs/" + name).end_object().end_object();
+        json_.key("then").begin_object().field("$ref", "#/$defs/" + definition).end_object().end_object();
     }
 
-    void definitions() {
-        json_.key("$defs").begin_object();
-        json_.key("variable").begin_object().field("type", "string").field("pattern", kVariable).end_object();
-        json_.key("expression").begin_object().field("type", "string");
-        json_.field("pattern", kExpression).end_object();
-        keys();
-        for (const auto& [name, type] : registry().types()) {
-            json_.key(name).begin_object().field("description", type.help).field("type", "object");
-            required(type.fields);
-            json_.key("properties").begin_object();
-            json_.key("type").begin_object().field("const", name).end_object();
-            json_.key("about").begin_object().field("type", "string").end_object();
-            json_.key("enabled").begin_object();
-            any_of(TypeInfo::boolean());
-            json_.end_object();
-            for (const FieldInfo& f : type.fields) field(f);
-            json_.end_object().field("additionalProperties", false).end_object();
-        }
-        json_.end_object();
-    }
-
-    void required(const std::vector<FieldInfo>& fields) {
+    void sink() {
         std::vector<std::string> names;
-        for (const FieldInfo& f : fields)
-            if (f.required) names.push_back(f.name);
-        if (!names.empty()) json_.key("required").list(names);
+        for (const auto& [name, type] : registry().types())
+            if (type.kind == NodeKind::kSink) names.push_back(name);
+        json_.key("keyline.sink").begin_object().key("enum").list(names).end_object();
     }
 
-    void field(const FieldInfo& f) {
-        json_.key(f.name).begin_object().field("description", f.help);
-        if (!f.required && !f.default_value.is(Value::Kind::kNull)) json_.field("default", f.default_value);
-        any_of(f.type);
-        json_.end_object();
+    static std::vector<TypeInfo::WordInfo> types() {
+        std::vector<TypeInfo::WordInfo> out;
+        for (const auto& [name, type] : registry().types()) out.push_back({name, type.help});
+        return out;
     }
 
-    // All that may stand for a value of the type: what validate() passes, and a variable.
-    void any_of(const TypeInfo& type) {
-        json_.key("anyOf").begin_array();
-        choices(type);
-        refer_to("variable");
-        if (takes_expressions(type)) refer_to("expression");
-        if (takes_keys(type)) refer_to("keys");
-        json_.end_array();
+    static std::vector<FieldInfo> fields_of(const NodeType& type) {
+        std::vector<FieldInfo> out = type.fields;
+        out.push_back(enabled_field());
+        return out;
     }
 
-    void refer_to(const char* definition) {
-        json_.begin_object().field("$ref", fmt::format("#/$defs/{}", definition)).end_object();
-    }
-
-    // A value that moves.
-    void keys() {
-        json_.key("keys").begin_object().field("type", "object");
-        json_.key("required").list(std::vector<std::string>{"keys"});
-        json_.key("properties").begin_object();
-        json_.key("keys").begin_object().field("type", "array").field("minItems", 1);
-        json_.key("items").begin_object().field("type", "array");
-        json_.field("minItems", 2).field("maxItems", 3).end_object().end_object();
-        for (const char* end : {"before", "after"})
-            json_.key(end)
-                .begin_object()
-                .key("enum")
-                .list(std::vector<std::string>{"hold", "loop", "extend"})
-                .end_object();
-        json_.key("on").begin_object().field("type", "integer").field("minimum", 1).end_object();
-        json_.end_object().field("additionalProperties", false).end_object();
-    }
-
-    void any_of_object(const TypeInfo& type) {
-        json_.begin_object();
-        any_of(type);
-        json_.end_object();
-    }
-
-    // The items of an "anyOf".
-    void choices(const TypeInfo& type) {
-        if (type.optional) plain("null");
-        switch (type.kind) {
-            case TypeInfo::Kind::kAnyOf:
-                for (const TypeInfo& item : type.items) choices(item);
-                return;
-            case TypeInfo::Kind::kPair: number(type.range); return numbers(2, TypeInfo::number(type.range));
-            case TypeInfo::Kind::kColor:
-                text("^#[0-9A-Fa-f]{6}$");
-                return numbers(3, TypeInfo::number(type.range));
-            case TypeInfo::Kind::kNumber: return number(type.range);
-            case TypeInfo::Kind::kInteger: return integer(type.range);
-            case TypeInfo::Kind::kNumbers: return numbers(type.count, type.items[0]);
-            case TypeInfo::Kind::kBool: return plain("boolean");
-            case TypeInfo::Kind::kString: return plain("string");
-            case TypeInfo::Kind::kFile: return file();
-            case TypeInfo::Kind::kList: return collection("array", "items", type.items[0]);
-            case TypeInfo::Kind::kTuple: return tuple(type.items);
-            case TypeInfo::Kind::kMap: return collection("object", "additionalProperties", type.items[0]);
-            case TypeInfo::Kind::kObject: return object(type.fields);
-            case TypeInfo::Kind::kInput: return input(type.takes);
-            case TypeInfo::Kind::kWord: return word(type);
-        }
-    }
-
-    // Data have no channels to pick after a colon.
-    void input(const Takes& takes) {
-        const bool is_data = takes.kind == Takes::Kind::kData;
-        json_.begin_object().field("type", "string");
-        json_.field("pattern", input_pattern(is_data));
-        if (is_data) json_.field("description", TypeInfo::input(takes, false).text());
-        json_.end_object();
-    }
-
-    void plain(const char* type) { json_.begin_object().field("type", type).end_object(); }
-
-    void text(const char* pattern) {
-        json_.begin_object().field("type", "string").field("pattern", pattern).end_object();
-    }
-
-    // What is in a name only the program knows.
-    void file() { json_.begin_object().field("type", "string").field("minLength", 1).end_object(); }
-
-    void number(const Range& range) { number("number", range.min, range.max); }
-
-    // An int has bounds of its own.
-    void integer(const Range& range) {
-        constexpr double kMost = std::numeric_limits<int>::max();
-        number("integer", std::max(range.min, -kMost), std::min(range.max, kMost));
-    }
-
-    void number(const char* type, double min, double max) {
-        json_.begin_object().field("type", type);
-        if (std::isfinite(min)) json_.field("minimum", min);
-        if (std::isfinite(max)) json_.field("maximum", max);
-        json_.end_object();
-    }
-
-    void numbers(std::size_t count, const TypeInfo& item) {
-        json_.begin_object().field("type", "array").key("items");
-        any_of_object(item);
-        json_.field("minItems", count).field("maxItems", count).end_object();
-    }
-
-    void tuple(const std::vector<TypeInfo>& items) {
-        json_.begin_object().field("type", "array").key("prefixItems").begin_array();
-        for (const TypeInfo& item : items) any_of_object(item);
-        json_.end_array().field("minItems", items.size()).field("maxItems", items.size()).end_object();
-    }
-
-    void word(const TypeInfo& type) {
-        std::vector<std::string> words;
-        for (const TypeInfo::WordInfo& w : type.words) words.push_back(w.word);
-        json_.begin_object().key("enum").list(words).end_object();
-    }
-
-    void collection(const char* type, const char* of, const TypeInfo& item) {
-        json_.begin_object().field("type", type).key(of);
-        any_of_object(item);
-        json_.end_object();
-    }
-
-    void object(const std::vector<FieldInfo>& fields) {
-        json_.begin_object().field("type", "object");
-        required(fields);
-        json_.key("properties").begin_object();
-        for (const FieldInfo& f : fields) field(f);
-        json_.end_object().field("additionalProperties", false).end_object();
-    }
+    static Value own_of(const std::string& type) { return parse_json(fmt::format(kOwn, type), "own"); }
 
     JsonWriter json_{JsonWriter::Style::kIndented};
 };

@@ -1,110 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/graph/graph.h"
+#include "engine/graph/group.h"
 #include "engine/json/json_reader.h"
 #include "engine/node/reference.h"
 #include "engine/node/registry.h"
-#include "tests/support/draw.h"
+#include "tests/support/any_value.h"
 #include "tests/support/json_schema.h"
 
-#include <cmath>
+#include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <gtest/gtest.h>
+#include <optional>
+#include <unistd.h>
 
 namespace keyline::testing {
 namespace {
 
-using Kind = TypeInfo::Kind;
+namespace fs = std::filesystem;
 
 constexpr unsigned kSeed = 1;
+constexpr int kFiles = 2000;
 constexpr int kValues = 60;  // of each field
-
-// JSON of a type, or nearly: with wrong values in it where `one_in` is not 0, on average one in so many.
-class AnyValue {
-public:
-    AnyValue(Draw& draw, int one_in) : draw_(draw), one_in_(one_in) {}
-
-    std::string of(const TypeInfo& type) {
-        if (one_in_ > 0 && draw_.one_in(one_in_)) return wrong(type);
-        if (type.optional && draw_.one_in(4)) return "null";
-        return right(type);
-    }
-
-    std::string object(const std::vector<FieldInfo>& fields) {
-        std::string out;
-        for (const FieldInfo& f : fields)
-            if (one_in_ > 0 ? !draw_.one_in(one_in_) : f.required) add(out, f.name, of(f.type));
-        if (one_in_ > 0 && draw_.one_in(2 * one_in_)) add(out, "no_such_key", "1");
-        return "{" + out + "}";
-    }
-
-    static void add(std::string& members, const std::string& name, const std::string& value) {
-        members += fmt::format("{}\"{}\": {}", members.empty() ? "" : ", ", name, value);
-    }
-
-private:
-    std::string right(const TypeInfo& type) {
-        switch (type.kind) {
-            case Kind::kNumber: return number(type.range);
-            case Kind::kInteger: return fmt::format("{}", std::round(draw_.number(type.range)));
-            case Kind::kBool: return draw_.one_in(2) ? "true" : "false";
-            case Kind::kString: return draw_.of(std::vector<std::string>{"\"\"", "\"ü\"", "\"R\""});
-            case Kind::kFile: return draw_.of(std::vector<std::string>{"\"a.exr\"", "\"b/a.####.exr\""});
-            case Kind::kWord: return fmt::format("\"{}\"", draw_.of(type.words).word);
-            case Kind::kPair: return draw_.one_in(2) ? number(type.range) : array(2, type.range);
-            case Kind::kColor: return draw_.one_in(2) ? "\"#12abEF\"" : array(3, type.range);
-            case Kind::kInput: return input(type.takes);
-            case Kind::kNumbers: return array(type.items[0], static_cast<int>(type.count));
-            case Kind::kList: return array(type.items[0], draw_.whole(0, 3));
-            case Kind::kTuple: {
-                std::string out;
-                for (const TypeInfo& item : type.items) out += (out.empty() ? "" : ", ") + of(item);
-                return "[" + out + "]";
-            }
-            case Kind::kMap: {
-                std::string out;
-                for (int i = draw_.whole(0, 2); i > 0; --i)
-                    add(out, fmt::format("k{}", i), of(type.items[0]));
-                return "{" + out + "}";
-            }
-            case Kind::kObject: return object(type.fields);
-            case Kind::kAnyOf: break;
-        }
-        return of(draw_.of(type.items));
-    }
-
-    // Of some other kind, out of the range, too long, or no such word.
-    std::string wrong(const TypeInfo& type) {
-        const std::vector<std::string> others{
-            "null",       "true",       "1",        "0.5",    "-1e9",       "1e9",
-            "3000000000", "[]",         "[0]",      "[0, 0]", "[0, 0, 0]",  "[0, 0, 0, 0]",
-            "[0.5, 0.5]", "[0, \"a\"]", "[[0, 0]]", "{}",     "{\"a\": 0}", "{\"a\": \"node\"}"};
-        const std::vector<std::string> texts{"\"\"", "\"nonsense\"", "\"#12abE\"", "\"#12abEG\""};
-        const std::vector<std::string> inputs{"\"\"", "\"node:\"", "\":R\"", "\":\""};
-        if (draw_.one_in(2)) return draw_.of(others);
-        if (type.kind == Kind::kInput) return draw_.of(inputs);
-        if (type.kind == Kind::kFile) return "\"\"";
-        const double step = draw_.one_in(2) ? 1 : 0.25;
-        if (std::isfinite(type.range.min) && draw_.one_in(2)) return fmt::format("{}", type.range.min - step);
-        if (std::isfinite(type.range.max) && draw_.one_in(2)) return fmt::format("{}", type.range.max + step);
-        return draw_.of(texts);
-    }
-
-    std::string number(const Range& range) { return fmt::format("{}", draw_.number(range)); }
-    std::string array(int count, const Range& range) { return array(TypeInfo::number(range), count); }
-    std::string array(const TypeInfo& item, int count) {
-        std::string out;
-        for (int i = 0; i < count; ++i) out += (i == 0 ? "" : ", ") + of(item);
-        return "[" + out + "]";
-    }
-
-    std::string input(const Takes& takes) {
-        if (takes.kind == Takes::Kind::kData || draw_.one_in(2)) return "\"node\"";
-        return draw_.of(std::vector<std::string>{"\"_a-1:R\"", "\"node:depth.Z\"", "\"n:a:b\""});
-    }
-
-    Draw& draw_;
-    int one_in_;
-};
 
 bool loader_takes(const NodeType& type, const Value& object) {
     Diagnostics diagnostics;
@@ -113,6 +32,25 @@ bool loader_takes(const NodeType& type, const Value& object) {
     std::erase_if(members.members, [](const Member& m) { return m.key == "type"; });
     validate(type.fields, members, reader);
     return !reader.failed();
+}
+
+// What is left of a value at frame 1 when variables, expressions and keys have been replaced; nothing where
+// that is a fault.
+std::optional<Value> computed(const Value& value, const TypeInfo& type, const Value& variables) {
+    Diagnostics diagnostics;
+    VariableSources sources;
+    sources.declared = &variables;
+    Value out = Variables(sources, diagnostics).evaluate(value, type, {1}, diagnostics);
+    return diagnostics.ok() ? std::optional(std::move(out)) : std::nullopt;
+}
+
+bool loader_takes(const FieldInfo& field, const std::string& value, const std::string& variables) {
+    const auto now =
+        computed(parse_json(value, "value.json"), field.type, parse_json(variables, "variables.json"));
+    Diagnostics diagnostics;
+    ParamReader reader(diagnostics, "node", {});
+    if (now) validate(field.type, *now, field.name, reader);
+    return now && !reader.failed();
 }
 
 // The node's object with one field that may be wrong; the others are those it needs.
@@ -133,6 +71,9 @@ protected:
     bool loads(const std::string& type, const std::string& object) const {
         return loader_takes(*registry().find(type), parse_json(object, "node.json"));
     }
+
+    // Of what must be there, as a validator that lists all of them counts.
+    int faults(const std::string& graph) const { return schema_.missing(parse_json(graph, "g.json")); }
 
     const Value root_ = parse_json(schema_json(), "schema.json");
     const JsonSchema schema_{root_};
@@ -191,6 +132,31 @@ TEST_F(Schema, TakesExpressionsAndKeysWhereTheLoaderDoes) {
     EXPECT_TRUE(takes("read", R"({"type": "read", "file": {"keys": [[1, "a.exr"], [5, "b.exr"]]}})"));
 }
 
+// Of every field: variables, expressions and keys in all places where they may stand, and in some where not.
+TEST_F(Schema, SaysTheSameAsTheLoaderOfWhatIsComputed) {
+    Draw draw(kSeed);
+    int refused = 0, taken = 0;
+    for (const auto& [name, type] : registry().types())
+        for (const FieldInfo& f : type.fields)
+            for (int i = 0; i < kValues / 2; ++i) {
+                AnyValue values(draw, 0);
+                values.compute();
+                const std::string value = values.of(f.type);
+                std::string object;
+                AnyValue::add(object, "type", "\"" + type.name + "\"");
+                for (const FieldInfo& other : type.fields)
+                    if (other.required && other.name != f.name)
+                        AnyValue::add(object, other.name, AnyValue(draw, 0).of(other.type));
+                AnyValue::add(object, f.name, value);
+                const bool loaded = loader_takes(f, value, values.variables());
+                ASSERT_EQ(takes(name, "{" + object + "}"), loaded)
+                    << "schema and loader, of {" << object << "} with " << values.variables();
+                (loaded ? taken : refused) += 1;
+            }
+    EXPECT_GT(taken, refused);
+    EXPECT_GT(refused, 0);
+}
+
 // What a schema can't say, or says although another pass does.
 TEST_F(Schema, DiffersFromTheLoader) {
     struct Case {
@@ -203,13 +169,41 @@ TEST_F(Schema, DiffersFromTheLoader) {
          true, false},
         {"what no id can be is told when links are checked, as an unknown node", "gaussian",
          R"({"type": "gaussian", "in": "9 a", "sigma": 1})", false, true},
-        {"a schema sees words before variables are replaced in them", "gaussian",
-         R"({"type": "gaussian", "in": "${shot}_a", "sigma": 1})", false, true},
+        {"what a variable is, a schema does not know", "gaussian",
+         R"({"type": "gaussian", "in": "${node}", "sigma": "${text}"})", true, false},
+        {"what is between keys is known at a frame", "gaussian",
+         R"({"type": "gaussian", "in": "a", "sigma": {"keys": [[1, "a"]]}})", true, false},
     };
     for (const Case& c : cases) {
         EXPECT_EQ(takes(c.type, c.object), c.schema) << c.why;
         EXPECT_EQ(loads(c.type, c.object), c.loader) << c.why;
     }
+}
+
+TEST_F(Schema, TellsOneFaultOfANodeWithoutAType) {
+    EXPECT_EQ(faults(R"({"keyline": 1, "nodes": {"a": {"color": "#000000"}}})"), 1);
+    EXPECT_EQ(faults(R"({"keyline": 1, "nodes": {"a": {}}})"), 1);
+    EXPECT_EQ(faults(R"({"keyline": 1, "nodes": {"a": {"type": "constant", "color": "#000000"}}})"), 0);
+}
+
+TEST_F(Schema, SaysWhatEveryTypeFieldAndWordMeans) {
+    const auto expect_words = [](const Value& any_of) {
+        for (const Value& choice : any_of.items)
+            if (choice.find("const")) {
+                ASSERT_TRUE(choice.find("description")) << choice.shown();
+                EXPECT_NE(choice.find("description")->text, "") << choice.shown();
+            }
+    };
+    expect_words(*root_.find("$defs")->find("keyline.node")->find("properties")->find("type")->find("anyOf"));
+    for (const auto& [name, type] : registry().types()) {
+        const Value& properties = *root_.find("$defs")->find(name)->find("properties");
+        for (const FieldInfo& f : type.fields) {
+            ASSERT_TRUE(properties.find(f.name)->find("description")) << name << "." << f.name;
+            expect_words(*properties.find(f.name)->find("anyOf"));
+        }
+    }
+    for (const Member& m : root_.find("properties")->members)
+        EXPECT_TRUE(m.value.find("description")) << m.key;
 }
 
 TEST_F(Schema, IsOfAWholeGraph) {
@@ -221,6 +215,165 @@ TEST_F(Schema, IsOfAWholeGraph) {
     EXPECT_TRUE(judge(R"({"keyline": 1, "nodes": {}, "frames": "1-9", "fps": 24, "include": ["a.json"]})"));
     EXPECT_FALSE(judge(R"({"keyline": 1, "nodes": {}, "fps": 0})"));
     EXPECT_FALSE(judge(R"({"keyline": 1, "nodes": {}, "include": 1})"));
+}
+
+TEST_F(Schema, IsOfAGroupWhereThereAreOutputs) {
+    const auto judge = [&](const std::string& more, const std::string& type = "constant") {
+        return schema_.takes(parse_json(
+            R"({"keyline": 1, "nodes": {"a": {"type": ")" + type + R"("}})" + more + "}", "g.json"));
+    };
+    const std::string outputs = R"(, "outputs": {"out": "a"})";
+    EXPECT_FALSE(judge(R"(, "inputs": {})"));
+    EXPECT_FALSE(judge(R"(, "parameters": {})"));
+    EXPECT_TRUE(judge(outputs + R"(, "inputs": {"in": {"about": "it", "optional": true}})", "g.json"));
+    EXPECT_FALSE(judge(outputs + R"(, "fps": 24)", "g.json"));
+    EXPECT_FALSE(judge(R"(, "outputs": {})", "g.json"));
+    EXPECT_FALSE(judge(outputs, "write")) << "a group writes nothing";
+}
+
+// The parts of a graph file, each right and wrong, put together at random.
+struct Part {
+    std::string key;
+    std::vector<std::string> right, wrong;  // "" leaves it out
+};
+
+const std::vector<Part> kParts{
+    {"keyline", {"1"}, {"\"1\"", "1.5", "0", "2", "null"}},
+    {"about", {"", R"("it")"}, {"1", "{}"}},
+    {"$schema", {"", R"("s.json")"}, {"[]"}},
+    {"zebra", {"", ""}, {"1"}},
+    {"variables",
+     {"", "{}", R"({"a": 1, "b-c": [1, {"d": null}]})",
+      R"({"a": {"default": 1, "choices": [1, true, "x"], "about": "it"}})", R"({"a": {"default": 1}})",
+      R"({"a": "$${b}"})"},
+     {"[]", R"({"1a": 1})", R"({"frame": 1})", R"({"a": {"default": 1, "choices": []}})",
+      R"({"a": {"choices": [1]}})", R"({"a": {"default": 1, "choices": [[1]]}})",
+      R"({"a": {"default": 1, "choices": [1], "abuot": "it"}})",
+      R"({"a": {"default": 1, "choices": [1], "about": 2}})"}},
+    {"nodes",
+     {R"({"a": {"type": "constant", "color": "#000000", "size": [4, 4]}, "out": {"type": "write", "in": "a", "file": "a.exr"}})",
+      R"({"a": {"type": "constant", "color": [0, "= 1", 0], "size": [4, 4], "about": "it"},
+          "out": {"type": "write", "in": "a", "file": "a.exr", "enabled": "= 1 > 0"}})",
+      R"({"a": {"type": "group.json", "gain": 2}, "out": {"type": "write", "in": "a", "file": "a.exr"}})"},
+     {"[]", R"({"a": {"color": "#000000"}})", R"({"a": {"type": 1}})", R"({"a": {"type": "costant"}})",
+      R"({"1a": {"type": "constant", "color": "#000000", "size": [4, 4]}})", R"({"a": 1})",
+      R"({"a": {"type": "constant", "color": "#000000", "size": [4, 4], "about": 1}})",
+      R"({"a": {"type": "constant", "color": "#000000", "size": [4, 4], "enabled": 1}})",
+      R"({"a": {"type": "group.json", "enabled": true}})", R"({"a": {"type": "group.json", "about": 1}})"}},
+};
+
+const std::vector<Part> kGraphParts{
+    {"include", {"", R"("vars.json")", R"(["vars.json"])", "[]"}, {"1", R"("")", R"([1])", R"("${")"}},
+    {"frames",
+     {"", R"("1-9")", R"("5")", R"(" 1 - 9 x 2,20")", R"("9--1")"},
+     {"5", R"("a")", R"("1-")", R"("1x2")", R"("1-9x0")"}},
+    {"fps", {"", "24", "23.976"}, {"0", "-1", R"("24")"}},
+    {"ocio", {"", R"("show.ocio")"}, {"1", R"("")"}},
+    {"inputs", {""}, {"{}"}},
+    {"parameters", {""}, {"{}"}},
+};
+
+const std::vector<Part> kGroupParts{
+    {"include", {""}, {R"("vars.json")"}},
+    {"fps", {""}, {"24"}},
+    {"outputs",
+     {R"({"out": "a"})", R"({"out": "a:R", "b": "a"})"},
+     {"{}", "[]", R"({"out": 1})", R"({"1a": "a"})"}},
+    {"inputs",
+     {"", "{}", R"({"in": {}, "b": {"about": "it", "optional": false}})"},
+     {"[]", R"({"in": 1})", R"({"1a": {}})", R"({"in": {"optional": 1}})", R"({"in": {"about": 1}})",
+      R"({"in": {"type": 1}})"}},
+    {"parameters",
+     {"", R"({"p": {"type": "number", "default": 1.5, "range": [0, 2], "about": "it"}})",
+      R"({"p": {"type": "bool"}})", R"({"p": {"type": "word", "words": ["x", "y"], "default": "x"}})",
+      R"({"p": {"type": "integer", "default": 2}})",
+      R"({"p": {"type": "color", "default": "#12abEF"}, "q": {"type": "pair", "default": 1}})",
+      R"({"p": {"type": "file", "default": "a.exr"}, "q": {"type": "text", "default": ""}})"},
+     {R"({"p": {}})", R"({"p": {"type": "nomber"}})", R"({"p": {"type": "number", "default": "1"}})",
+      R"({"p": {"type": "number", "range": [0]}})", R"({"p": {"type": "number", "range": 1}})",
+      R"({"p": {"type": "word"}})", R"({"p": {"type": "word", "words": []}})",
+      R"({"p": {"type": "word", "words": [1]}})", R"({"p": {"type": "integer", "default": 0.5}})",
+      R"({"p": {"type": "color", "default": "#12"}})", R"({"p": {"type": "pair", "default": [1]}})",
+      R"({"p": {"type": "file", "default": ""}})", R"({"p": {"type": "bool", "default": 1}})",
+      R"({"p": {"type": "bool", "abuot": "it"}})"}},
+};
+
+class SchemaOfFiles : public Schema {
+protected:
+    SchemaOfFiles() {
+        fs::create_directories(folder_);
+        write("vars.json", R"({"c": 1})");
+        write(
+            "group.json",
+            R"({"keyline": 1, "parameters": {"gain": {"type": "number", "default": 1}}, "outputs": {"out": "a"},
+                  "nodes": {"a": {"type": "constant", "color": "#000000", "size": [4, 4]}}})");
+    }
+    ~SchemaOfFiles() override { fs::remove_all(folder_); }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return folder_ / name;
+    }
+
+    bool loads_graph(const std::string& text) const {
+        Diagnostics diagnostics;
+        Graph::parse(text, (folder_ / "graph.json").string(), folder_, {}, diagnostics);
+        return diagnostics.ok();
+    }
+    // A file of its own each: a system may take long to replace one.
+    bool loads_group(const std::string& text) {
+        Diagnostics diagnostics;
+        read_group(write(fmt::format("{}.json", ++written_), text), {}, diagnostics);
+        return diagnostics.ok();
+    }
+
+    // One in eight parts is wrong.
+    static std::string assembled(Draw& draw, std::vector<Part> parts, const std::vector<Part>& more) {
+        parts.insert(parts.end(), more.begin(), more.end());
+        std::string members;
+        for (const Part& part : parts) {
+            const std::string& value = draw.one_in(8) ? draw.of(part.wrong) : draw.of(part.right);
+            if (!value.empty()) AnyValue::add(members, part.key, value);
+        }
+        return "{" + members + "}";
+    }
+
+private:
+    int written_ = 0;
+    const fs::path folder_ = fs::temp_directory_path() / fmt::format("keyline_schema_{}", getpid());
+};
+
+TEST_F(SchemaOfFiles, SaysTheSameAsTheLoaderOfWholeGraphs) {
+    Draw draw(kSeed);
+    int taken = 0;
+    for (int i = 0; i < kFiles; ++i) {
+        const std::string text = assembled(draw, kParts, kGraphParts);
+        const bool loaded = loads_graph(text);
+        ASSERT_EQ(schema_.takes(parse_json(text, "graph.json")), loaded) << "schema and loader, of " << text;
+        taken += loaded ? 1 : 0;
+    }
+    EXPECT_GT(taken, kFiles / 10);
+    EXPECT_LT(taken, kFiles / 2);
+}
+
+// The nodes inside are read where the group is used.
+TEST_F(SchemaOfFiles, SaysTheSameAsTheLoaderOfGroups) {
+    Draw draw(kSeed);
+    std::vector<Part> parts = kParts;
+    std::ranges::find(parts, "nodes", &Part::key)->right = {
+        R"({"a": {"type": "constant", "color": "#000000", "size": [4, 4]}})"};
+    std::ranges::find(parts, "nodes", &Part::key)->wrong = {"[]", "1"};
+    std::ranges::find(parts, "keyline", &Part::key)->wrong = {""};
+    std::ranges::find(parts, "variables", &Part::key)->wrong = {R"({"a": 1})"};
+    int taken = 0;
+    for (int i = 0; i < kFiles; ++i) {
+        const std::string text = assembled(draw, parts, kGroupParts);
+        const bool loaded = loads_group(text);
+        ASSERT_EQ(schema_.takes(parse_json(text, "graph.json")), loaded) << "schema and loader, of " << text;
+        taken += loaded ? 1 : 0;
+    }
+    EXPECT_GT(taken, kFiles / 10);
+    EXPECT_LT(taken, kFiles / 2);
 }
 
 }  // namespace

@@ -14,7 +14,10 @@ namespace {
 
 using Kind = Value::Kind;
 
-bool is_of_type(const std::string& type, const Value& value) {
+bool is_of_type(const Value& types, const Value& value) {
+    const auto is_it = [&](const Value& type) { return is_of_type(type, value); };
+    if (types.is(Kind::kArray)) return std::ranges::any_of(types.items, is_it);
+    const std::string& type = types.text;
     if (type == "null") return value.is(Kind::kNull);
     if (type == "boolean") return value.is(Kind::kBool);
     if (type == "number") return value.is(Kind::kNumber);
@@ -69,21 +72,47 @@ bool JsonSchema::holds(const Value& schema, const Value& value) const {
                                [&](const Member& m) { return keyword_holds(schema, m, value); });
 }
 
+int JsonSchema::missing(const Value& schema, const Value& value) const {
+    int out = 0;
+    for (const Member& m : schema.members) {
+        if (m.key == "$ref") out += missing(referred(m.value.text), value);
+        if (m.key == "required")
+            out += static_cast<int>(std::ranges::count_if(
+                m.value.items, [&](const Value& key) { return !value.find(key.text); }));
+        if (m.key == "allOf")
+            for (const Value& each : m.value.items) out += missing(each, value);
+        if (m.key == "if")
+            if (const Value* chosen = schema.find(holds(m.value, value) ? "then" : "else"))
+                out += missing(*chosen, value);
+        if (m.key == "properties" || m.key == "additionalProperties")
+            for (const Member& member : value.members) {
+                const Value* of_it = m.key == "properties" ? m.value.find(member.key) : &m.value;
+                if (of_it) out += missing(*of_it, member.value);
+            }
+    }
+    return out;
+}
+
 bool JsonSchema::keyword_holds(const Value& schema, const Member& m, const Value& value) const {
     const auto value_holds = [&](const Value& s) { return holds(s, value); };
-    if (is_in(m.key, {"$schema", "$defs", "title", "description", "default", "then"})) return true;
-    if (m.key == "type") return is_of_type(m.value.text, value);
+    if (is_in(m.key, {"$schema", "$id", "$defs", "title", "description", "default", "then", "else"}))
+        return true;
+    if (m.key == "type") return is_of_type(m.value, value);
     if (m.key == "const") return same(m.value, value);
     if (m.key == "enum")
         return std::ranges::any_of(m.value.items, [&](const Value& v) { return same(v, value); });
     if (m.key == "$ref") return value_holds(referred(m.value.text));
     if (m.key == "anyOf") return std::ranges::any_of(m.value.items, value_holds);
     if (m.key == "allOf") return std::ranges::all_of(m.value.items, value_holds);
-    if (m.key == "if") return !value_holds(m.value) || value_holds(*schema.find("then"));
+    if (m.key == "not") return !value_holds(m.value);
+    if (m.key == "if") {
+        const Value* chosen = schema.find(value_holds(m.value) ? "then" : "else");
+        return !chosen || value_holds(*chosen);
+    }
     if (is_in(m.key, {"minimum", "exclusiveMinimum", "maximum"})) return number_holds(m, value);
     if (is_in(m.key, {"pattern", "minLength"})) return string_holds(m, value);
     if (is_in(m.key, {"items", "prefixItems", "minItems", "maxItems"})) return array_holds(m, value);
-    if (is_in(m.key, {"properties", "required", "additionalProperties", "propertyNames"}))
+    if (is_in(m.key, {"properties", "required", "additionalProperties", "propertyNames", "minProperties"}))
         return object_holds(schema, m, value);
     throw std::logic_error("the schema has an unknown keyword " + m.key);
 }
@@ -122,6 +151,7 @@ bool JsonSchema::object_holds(const Value& schema, const Member& m, const Value&
             const Value* v = value.find(property.key);
             return !v || holds(property.value, *v);
         });
+    if (m.key == "minProperties") return static_cast<double>(value.members.size()) >= m.value.number;
     const Value* properties = schema.find("properties");
     return std::ranges::all_of(value.members, [&](const Member& member) {
         if (m.key == "additionalProperties")

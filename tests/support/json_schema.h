@@ -19,8 +19,12 @@ public:
     bool takes(const Value& value) const { return holds(root_, value); }
     bool takes(const std::string& definition, const Value& value) const;
 
+    // How often the whole schema, where it is followed, asks for a member that is not there.
+    int missing(const Value& value) const { return missing(root_, value); }
+
 private:
     bool holds(const Value& schema, const Value& value) const;
+    int missing(const Value& schema, const Value& value) const;
     bool keyword_holds(const Value& schema, const Member& keyword, const Value& value) const;
     bool number_holds(const Member& keyword, const Value& value) const;
     bool string_holds(const Member& keyword, const Value& value) const;
