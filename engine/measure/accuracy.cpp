@@ -35,6 +35,15 @@ Strokes laid_over(Strokes truth, const Rect& display) {
     return truth;
 }
 
+// A scene goes on outside the picture, and nobody can draw there.
+std::vector<Spot> spots_in_view(const Strokes& truth, const Rect& window) {
+    std::vector<Spot> out = spots_of(truth);
+    std::erase_if(out, [&](const Spot& s) {
+        return s.x < window.x0 || s.x > window.x1 || s.y < window.y0 || s.y > window.y1;
+    });
+    return out;
+}
+
 // What lies beside each other, the closest first.
 std::vector<Pair> pairs_of(const std::vector<Spot>& drawn, const std::vector<Spot>& truth,
                            const AccuracyOptions& options) {
@@ -143,7 +152,7 @@ Strokes unmatched(const Strokes& from, const std::vector<Spot>& spots, const std
 
 Accuracy accuracy_of(const Strokes& drawing, const Strokes& truth, const AccuracyOptions& options) {
     const Strokes lines = laid_over(truth, drawing.display);
-    const std::vector<Spot> drawn = spots_of(drawing), true_spots = spots_of(lines);
+    const std::vector<Spot> drawn = spots_of(drawing), true_spots = spots_in_view(lines, drawing.window);
     const std::vector<Pair> pairs = pairs_of(drawn, true_spots, options);
     const std::vector<double> offs = offs_of(drawn, true_spots.size(), pairs);
     std::vector<double> found(true_spots.size(), std::numeric_limits<double>::quiet_NaN());

@@ -43,7 +43,8 @@ struct Accuracy {
     Strokes missed;  // what is true and not drawn, in pixels of the drawing
 };
 
-// The truth may have another size: its display window is laid over the drawing's.
+// The truth may have another size: its display window is laid over the drawing's.  What lies outside the
+// drawing's data window is not in view, and does not count.
 Accuracy accuracy_of(const Strokes& drawing, const Strokes& truth, const AccuracyOptions& options);
 
 }  // namespace keyline

@@ -37,6 +37,8 @@ struct LinkCrossings {
     Strokes finish(State state) const {
         Strokes out{display, window, names, {}};
         out.strokes = strokes_of(link_borders(std::move(state.crossings), state.extent), options);
+        if (kind)
+            for (Stroke& s : out.strokes) s.kind = *kind;
         arrange(out);
         return out;
     }
@@ -55,6 +57,7 @@ struct LinkCrossings {
     }
 
     const ContourOptions options;
+    const std::optional<StrokeKind> kind;  // of all; else each has its own
     const Rect display, window;
     const Names names;
 };
@@ -70,6 +73,7 @@ struct Contours {
         double sigma = 0.7;
         std::array<double, 2> step{1, 3};
         double min_length = 4;
+        std::optional<StrokeKind> kind;
 
         static constexpr auto fields = declare(
             input(&Params::in, "in",
@@ -89,7 +93,10 @@ struct Contours {
                 "is before the other; between both a line is what it hangs on.",
                 at_least(0, "pixels")),
             field(&Params::min_length, "min_length", "Closed lines that are shorter are left out.",
-                  at_least(0, "pixels")));
+                  at_least(0, "pixels")),
+            field(&Params::kind, "kind",
+                  "What the strokes are called, as \"material\" for a CryptoMaterial; when absent each is "
+                  "called after the depth on both sides."));
     };
     static constexpr const char* gives = Strokes::kind;
 
@@ -118,7 +125,7 @@ struct Contours {
         const ContourOptions options{params.sigma, pixel_angle, params.step, params.min_length,
                                      ids.crypto ? kOfCoverage : kOfIds};
         return add_operation(builder,
-                             LinkCrossings{options, in.display, in.window,
+                             LinkCrossings{options, params.kind, in.display, in.window,
                                            ids.crypto ? names_of(builder, *ids.crypto->info) : Names{}},
                              {crossings});
     }

@@ -130,6 +130,18 @@ TEST(Contours, AnOutlineIsOneClosedStrokeAroundItsObject) {
     EXPECT_NEAR(keyline::length_of(s), 20 * std::numbers::pi, 0.2);
 }
 
+TEST(Contours, AreCalledAsIsAskedFor) {
+    const Images passes{{"in", passes_of(ball_in_the_ground())}};
+    const Json depth{{"layer", "CryptoObject"}, {"depth", "in:Depth"}};
+    Json named = depth;
+    named.set("kind", "material");
+    Strokes expected = strokes_in(passes, depth);
+    EXPECT_GT(expected.strokes.size(), 1U);
+    for (Stroke& s : expected.strokes) s.kind = StrokeKind::kMaterial;
+    arrange(expected);
+    EXPECT_EQ(strokes_in(passes, named), expected);
+}
+
 TEST(Contours, EveryBorderComesOnce) {
     const Scene scene = two_discs();
     const Strokes strokes = strokes_of(scene);
