@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
+#include "cli/info_report.h"
+#include "cli/options.h"
 #include "cli/report.h"
-#include "cli/window_json.h"
-#include "engine/base/channels.h"
-#include "engine/base/print.h"
+#include "cli/sequences.h"
 #include "engine/base/text.h"
-#include "engine/io/describe.h"
-#include "engine/io/describe_image.h"
-#include "engine/json/json_writer.h"
+#include "engine/look/views.h"
+#include "engine/params/frames.h"
 
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 namespace keyline::cli {
 
@@ -19,144 +19,120 @@ namespace {
 
 struct InfoArguments {
     std::vector<std::string> files;
-    bool json = false;
+    std::string at;
+    bool all = false, statistics = false, objects = false, json = false;
+
+    bool ask_for_pixels() const { return statistics || objects || !at.empty(); }
 };
 
-std::vector<std::string> layers_of_part(const ImagePart& part) {
-    std::vector<std::string> names;
-    for (const ChannelInfo& c : part.channels) names.push_back(c.name);
-    return layers_of(names);
-}
+struct Point {
+    int x = 0, y = 0;
+};
 
-constexpr std::size_t kMostNumbers = 16;
-
-// For people: long values are cut.
-std::string shown(const Attribute::Value& value) {
-    return std::visit(
-        []<class T>(const T& v) -> std::string {
-            if constexpr (std::same_as<T, std::string>) {
-                return in_quotes(v);
-            } else if constexpr (std::same_as<T, std::vector<std::string>>) {
-                return listed(v);
-            } else if constexpr (std::same_as<T, std::vector<std::byte>>) {
-                return fmt::format("{} bytes", v.size());
-            } else {
-                std::string out;
-                for (std::size_t i = 0; i < std::min(v.size(), kMostNumbers); ++i)
-                    out += fmt::format("{}{}", i > 0 ? " " : "", v[i]);
-                return v.size() > kMostNumbers ? out + " …" : out;
-            }
-        },
-        value);
-}
-
-void append_line(std::string& out, const char* label, const std::string& text) {
-    out += fmt::format("  {:<12}{}\n", label, text);
-}
-
-// A line a layer.
-void append_channels(std::string& out, const ImagePart& part) {
-    append_line(out, "channels", std::to_string(part.channels.size()));
-    std::vector<ChannelInfo> group;
-    for (std::size_t i = 0; i < part.channels.size(); ++i) {
-        group.push_back(part.channels[i]);
-        const bool last = i + 1 == part.channels.size() || split_channel(part.channels[i + 1].name).layer !=
-                                                               split_channel(group[0].name).layer;
-        if (!last) continue;
-        out += fmt::format("    {}\n", describe(group));
-        group.clear();
+// Of --at.
+std::optional<Point> read_point(const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    try {
+        const std::size_t comma = text.find(',');
+        if (comma == std::string::npos) fail(ErrorKind::kGraph, "it must be X,Y");
+        return Point{parse_count(text.substr(0, comma), -kMaxCoordinate, kMaxCoordinate),
+                     parse_count(text.substr(comma + 1), -kMaxCoordinate, kMaxCoordinate)};
+    } catch (const Failure& f) {
+        rethrow_with(f, [&](Error& e) { e.place = {"--at " + text, 0, 0}; });
     }
 }
 
-std::string storage_of(const ImagePart& part) {
-    std::string out = part.storage;
-    if (part.tile_width > 0) out += fmt::format(" in {} × {}", part.tile_width, part.tile_height);
-    if (!part.compression.empty()) out += fmt::format(", {}", part.compression);
+// What is wrong with a manifest keeps nothing from being told.
+void warn_of_manifests(const std::string& file, const std::vector<SeenCryptomatte>& all,
+                       Diagnostics& diagnostics) {
+    for (const SeenCryptomatte& matte : all)
+        for (const std::string& fault : matte.faults)
+            diagnostics.warning(
+                {ErrorKind::kInput, {}, {}, fmt::format("{}: {}: {}", file, matte.name, fault), {}});
+}
+
+Findings findings_of(const InfoArguments& arguments, const std::optional<Point>& at, const PartView& view) {
+    Findings out{view.part, view.view, {}, {}, {}};
+    if (arguments.statistics) out.statistics = statistics_of(*view.source);
+    if (arguments.objects) out.objects = objects_of(*view.source);
+    if (at) out.pixel = pixel_of(*view.source, at->x, at->y);
     return out;
 }
 
-std::string text_of(const std::string& file, const ImageDescription& image) {
-    std::string out = fmt::format("{}: {}, {} part{}\n", escaped(file), image.format, image.parts.size(),
-                                  image.parts.size() == 1 ? "" : "s");
-    for (std::size_t i = 0; i < image.parts.size(); ++i) {
-        const ImagePart& part = image.parts[i];
-        if (image.parts.size() > 1 || !part.name.empty())
-            append_line(out, "part", fmt::format("{} {}", i, in_quotes(part.name)));
-        if (!part.view.empty()) append_line(out, "view", escaped(part.view));
-        append_line(out, "display", to_string(part.display_window));
-        append_line(out, "data", to_string(part.data_window));
-        if (!part.storage.empty()) append_line(out, "storage", storage_of(part));
-        append_channels(out, part);
-        if (!part.metadata.attributes().empty()) append_line(out, "attributes", "");
-        for (const Attribute& a : part.metadata.attributes())
-            out += fmt::format("    {} ({}): {}\n", escaped(a.name), escaped(a.type), shown(a.value));
+FileReport look_at(const InfoArguments& arguments, const std::optional<Point>& at, const std::string& file,
+                   Diagnostics& diagnostics) {
+    FileReport out{file, describe_image(file), {}};
+    if (out.image.fault) diagnostics.error(*out.image.fault);
+    if (out.image.fault || !arguments.ask_for_pixels()) return out;
+    for (const PartView& view : open_views(file, out.image, diagnostics)) {
+        out.findings.push_back(findings_of(arguments, at, view));
+        if (const auto& objects = out.findings.back().objects) warn_of_manifests(file, *objects, diagnostics);
     }
     return out;
-}
-
-void write_value(JsonWriter& json, const Attribute::Value& value) {
-    std::visit(
-        [&]<class T>(const T& v) {
-            if constexpr (std::same_as<T, std::string>) {
-                json.value(v);
-            } else if constexpr (std::same_as<T, std::vector<std::byte>>) {
-                json.begin_array();
-                for (const std::byte b : v) json.value(std::to_integer<int>(b));
-                json.end_array();
-            } else if constexpr (!std::same_as<T, std::vector<std::string>>) {
-                v.size() == 1 ? json.value(v[0]) : json.list(v);
-            } else {
-                json.list(v);
-            }
-        },
-        value);
-}
-
-void write_part(JsonWriter& json, const ImagePart& part) {
-    json.begin_object().field("name", part.name).field("view", part.view);
-    write_window(json, "displayWindow", part.display_window);
-    write_window(json, "dataWindow", part.data_window);
-    json.field("storage", part.storage).field("compression", part.compression);
-    if (part.tile_width > 0) json.key("tile").list(std::vector{part.tile_width, part.tile_height});
-    json.key("layers").list(layers_of_part(part)).key("channels").begin_array();
-    for (const ChannelInfo& c : part.channels)
-        json.begin_object().field("name", c.name).field("type", sample_type_name(c.type)).end_object();
-    json.end_array().key("attributes").begin_object();
-    for (const Attribute& a : part.metadata.attributes()) {
-        json.key(a.name).begin_object().field("type", a.type).key("value");
-        write_value(json, a.value);
-        json.end_object();
-    }
-    json.end_object().end_object();
-}
-
-void write_image(JsonWriter& json, const std::string& file, const ImageDescription& image) {
-    json.begin_object().field("file", file).field("format", image.format).key("parts").begin_array();
-    for (const ImagePart& part : image.parts) write_part(json, part);
-    json.end_array();
-    if (image.fault) json.field("fault", image.fault->what);
-    json.end_object();
 }
 
 // A file that can't be read keeps no other from being told.
-int run(const InfoArguments& arguments) {
-    JsonWriter json(JsonWriter::Style::kIndented);
-    json.begin_array();
-    std::string text;
-    Diagnostics diagnostics;
-    for (const std::string& file : arguments.files) {
+std::vector<FileReport> look_at_all(const InfoArguments& arguments, Diagnostics& diagnostics) {
+    const std::optional<Point> at = read_point(arguments.at);
+    std::vector<FileReport> out;
+    const auto unless_it_fails = [&](const auto& look) {
         try {
-            const ImageDescription image = describe_image(file);
-            if (arguments.json)
-                write_image(json, file, image);
-            else
-                text += (text.empty() ? "" : "\n") + text_of(file, image);
-            if (image.fault) diagnostics.error(*image.fault);
+            look();
         } catch (const Failure& f) {
             diagnostics.error(f.error());
         }
+    };
+    for (const std::string& name : arguments.files)
+        unless_it_fails([&] {
+            for (const std::string& file : files_of(name))
+                unless_it_fails([&] { out.push_back(look_at(arguments, at, file, diagnostics)); });
+        });
+    return out;
+}
+
+std::string missing_text(const std::vector<int>& missing) {
+    return missing.empty() ? "" : fmt::format(", {} missing: {}", missing.size(), format_frames(missing));
+}
+
+// A sequence is told once.
+std::string folded_text(const std::vector<FileReport>& reports) {
+    std::vector<std::string> files, told;
+    for (const FileReport& r : reports) {
+        files.push_back(r.file);
+        told.push_back(short_text(r.image));
     }
-    print_result(arguments.json ? json.end_array().text() + "\n" : text);
+    std::string out;
+    for (const Sequence& s : fold_sequences(files, told)) {
+        const std::string frames = s.frames.empty() ? "" : " " + format_frames(s.frames);
+        out += fmt::format("{}{}{}: {}", out.empty() ? "" : "\n", escaped(s.name), frames,
+                           short_text(reports[s.first].image, missing_text(s.missing)));
+    }
+    return out;
+}
+
+std::string text_of(const InfoArguments& arguments, const std::vector<FileReport>& reports) {
+    if (!arguments.all && !arguments.ask_for_pixels()) return folded_text(reports);
+    std::string out;
+    for (const FileReport& r : reports) {
+        if (!out.empty()) out += "\n";
+        out += arguments.all ? long_text(r.file, r.image)
+                             : fmt::format("{}: {}", escaped(r.file), short_text(r.image));
+        out += findings_text(r);
+    }
+    return out;
+}
+
+std::string json_of(const std::vector<FileReport>& reports) {
+    JsonWriter json(JsonWriter::Style::kIndented);
+    json.begin_array();
+    for (const FileReport& r : reports) write_report(json, r);
+    return json.end_array().text() + "\n";
+}
+
+int run(const InfoArguments& arguments) {
+    Diagnostics diagnostics;
+    const std::vector<FileReport> reports = look_at_all(arguments, diagnostics);
+    print_result(arguments.json ? json_of(reports) : text_of(arguments, reports));
     report(diagnostics);
     return exit_status(diagnostics);
 }
@@ -166,7 +142,17 @@ int run(const InfoArguments& arguments) {
 void add_info(CLI::App& program, Chosen& chosen) {
     CLI::App& command = *program.add_subcommand("info", "What image files hold");
     const auto arguments = std::make_shared<InfoArguments>();
-    command.add_option("FILE", arguments->files, "Image files")->required()->type_name("");
+    command.add_option("FILE", arguments->files, "Image files; street.####.exr for all frames of a sequence")
+        ->required()
+        ->type_name("");
+    command.add_flag("--all", arguments->all, "Storage and attributes too, file by file");
+    command.add_flag("--stats", arguments->statistics,
+                     "The least, mean and largest sample of each channel, and how many are negative, "
+                     "infinite or NaN");
+    command.add_flag("--objects", arguments->objects,
+                     "The objects of Cryptomattes: pixels, area and the window that holds them");
+    add_value_option(command, "--at", arguments->at, "X,Y",
+                     "Every channel of one pixel, and the objects that it shows");
     command.add_flag("--json", arguments->json, "As JSON: a list with an object a file");
     command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
 }

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/streams.h"
 
+#include "cli/table.h"
 #include "cli/window_json.h"
 #include "engine/base/channels.h"
 #include "engine/base/index.h"
 #include "engine/base/text.h"
 
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <vector>
 
@@ -41,8 +40,6 @@ std::string channels_of(const ResolvedFrame& frame, const Stream& stream) {
     return escaped(out + kind);
 }
 
-using Row = std::array<std::string, 6>;
-
 Row row_of(const Graph& graph, const ResolvedFrame& frame, const NodeStream& s) {
     const GraphNode& node = graph.nodes()[index(s.node)];
     return {node.id,
@@ -53,27 +50,12 @@ Row row_of(const Graph& graph, const ResolvedFrame& frame, const NodeStream& s) 
             channels_of(frame, s.stream)};
 }
 
-// Columns as wide as their widest entry; a character is one cell.
-std::size_t width_of(const std::string& text) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
-}
-
 }  // namespace
 
 std::string streams_text(const Graph& graph, const ResolvedFrame& frame) {
     std::vector<Row> rows{{"node", "type", "display", "data", "digest", "channels"}};
     for (const NodeStream& s : frame.streams) rows.push_back(row_of(graph, frame, s));
-    std::array<std::size_t, 6> widths{};
-    for (const Row& row : rows)
-        for (std::size_t i = 0; i + 1 < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
-    std::string out = fmt::format("frame {}\n", frame.frame);
-    for (const Row& row : rows) {
-        for (std::size_t i = 0; i + 1 < row.size(); ++i)
-            out += row[i] + std::string(widths[i] + 2 - width_of(row[i]), ' ');
-        out += row.back() + "\n";
-    }
-    return out;
+    return fmt::format("frame {}\n", frame.frame) + table(rows);
 }
 
 void write_streams(JsonWriter& json, const Graph& graph, const ResolvedFrame& frame) {

@@ -5,28 +5,28 @@
 #include "engine/base/channels.h"
 #include "engine/base/text.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
 namespace keyline {
 
 namespace {
 
-std::vector<ChannelInfo> in_rgba_order(std::span<const ChannelInfo> channels) {
+std::vector<FileChannel> in_rgba_order(std::span<const FileChannel> channels) {
     std::vector<std::string> names;
-    for (const ChannelInfo& c : channels) names.push_back(c.name);
-    std::vector<ChannelInfo> out;
+    for (const FileChannel& c : channels) names.push_back(c.name);
+    std::vector<FileChannel> out;
     for (const std::size_t i : rgba_order(names)) out.push_back(channels[i]);
     return out;
 }
 
 }  // namespace
 
-std::string describe(std::span<const ChannelInfo> channels) {
-    const std::vector<ChannelInfo> sorted = in_rgba_order(channels);
+std::string describe(std::span<const FileChannel> channels) {
+    const std::vector<FileChannel> sorted = in_rgba_order(channels);
     std::string out;
     for (std::size_t i = 0; i < sorted.size();) {
         const ChannelName first = split_channel(sorted[i].name);
-        const SampleType type = sorted[i].type;
+        const std::string& type = sorted[i].type;
         if (!out.empty()) out += ", ";
         if (!first.layer.empty()) out += escaped(first.layer) + ": ";
         for (; i < sorted.size() && sorted[i].type == type; ++i) {
@@ -34,7 +34,27 @@ std::string describe(std::span<const ChannelInfo> channels) {
             if (name.layer != first.layer) break;
             out += escaped(name.base) + " ";
         }
-        out += sample_type_name(type);
+        out += type;
+    }
+    return out;
+}
+
+std::string describe(std::span<const ChannelInfo> channels) {
+    std::vector<FileChannel> typed;
+    for (const ChannelInfo& c : channels) typed.push_back({c.name, sample_type_name(c.type)});
+    return describe(typed);
+}
+
+std::vector<std::vector<FileChannel>> by_layer(std::span<const FileChannel> channels) {
+    std::vector<std::vector<FileChannel>> out;
+    for (const FileChannel& c : channels) {
+        const std::string_view layer = split_channel(c.name).layer;
+        const auto same = std::ranges::find_if(
+            out, [&](const auto& group) { return split_channel(group.front().name).layer == layer; });
+        if (same == out.end())
+            out.push_back({c});
+        else
+            same->push_back(c);
     }
     return out;
 }

@@ -6,6 +6,7 @@
 #include "engine/io/exr/file.h"
 #include "engine/io/exr/header.h"
 #include "engine/io/exr/metadata.h"
+#include "engine/io/oiio/reader.h"
 
 namespace keyline {
 
@@ -24,6 +25,7 @@ ImagePart describe_part(const exr::Part& part) {
     ImagePart out;
     out.name = part.name;
     out.view = part.view;
+    out.views = part.views;
     out.storage = storage_name(part.storage);
     out.compression = exr::info(part.compression).name;
     out.display_window = part.display_window;
@@ -32,8 +34,20 @@ ImagePart describe_part(const exr::Part& part) {
         out.tile_width = part.chunk_width;
         out.tile_height = part.chunk_height;
     }
-    for (const exr::StoredChannel& c : part.channels) out.channels.push_back({c.name, c.type});
+    for (const exr::StoredChannel& c : part.channels)
+        out.channels.push_back({c.name, sample_type_name(c.type)});
     out.metadata = part.metadata;
+    return out;
+}
+
+// Integers are handed on as floats; here they are what they are in the file.
+std::vector<FileChannel> channels_of(const ImageSource& source, const ChannelGroup& group) {
+    const auto* const picture = dynamic_cast<const oiio::PictureSource*>(&source);
+    std::vector<FileChannel> out;
+    for (std::size_t i = 0; i < group.channels.size(); ++i) {
+        const ChannelInfo& c = group.channels[i];
+        out.push_back({c.name, picture ? picture->stored_types()[i] : sample_type_name(c.type)});
+    }
     return out;
 }
 
@@ -45,7 +59,7 @@ ImageDescription describe_source(const ImageSource& source) {
         ImagePart part;
         part.display_window = header.display_window;
         part.data_window = group.window;
-        part.channels = group.channels;
+        part.channels = channels_of(source, group);
         part.metadata = header.metadata;
         out.parts.push_back(std::move(part));
     }

@@ -4,6 +4,7 @@
 
 #include "engine/base/api.h"
 #include "engine/base/error.h"
+#include "engine/io/describe.h"
 #include "engine/io/image_source.h"
 
 #include <filesystem>
@@ -15,12 +16,13 @@ namespace KEYLINE_API keyline {
 
 // One part of an image file as it is stored: every view, and deep ones too.
 struct ImagePart {
-    std::string name, view;   // empty where it has none
-    std::string storage;      // "scanline", "tiled", "deep"; "" for formats other than OpenEXR
-    std::string compression;  // by OpenEXR's name; "" where it is not known
+    std::string name, view;          // empty where it has none
+    std::vector<std::string> views;  // that its channels are of, where these are several
+    std::string storage;             // "scanline", "tiled", "deep"; "" for formats other than OpenEXR
+    std::string compression;         // by OpenEXR's name; "" where it is not known
     Rect display_window, data_window;
     int tile_width = 0, tile_height = 0;  // of a tiled part
-    std::vector<ChannelInfo> channels;    // under the names in the file
+    std::vector<FileChannel> channels;
     Metadata metadata;
 };
 

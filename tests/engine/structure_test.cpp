@@ -101,6 +101,7 @@ const std::vector<Folder> kFolders = {
     {"engine/params", {"engine/json", "engine/simd"}, {}},
     {"engine/node", {"engine/json", "engine/params", "engine/io"}, {}},
     {"engine/kit", {"engine/json", "engine/simd", "engine/color", "engine/params", "engine/node"}, {}},
+    {"engine/look", {"engine/simd", "engine/io", "engine/params", "engine/node", "engine/kit"}, {}},
     {"engine/measure", {"engine/params", "engine/kit"}, {}},
     {"engine/graph", {"engine/json", "engine/expr", "engine/params", "engine/node"}, {}},
     {"engine/plan", {"engine/color", "engine/io", "engine/params", "engine/node", "engine/graph"}, {}},
@@ -110,7 +111,7 @@ const std::vector<Folder> kFolders = {
      {"tbb/", "oneapi/"}},
     {"nodes", {"engine/simd", "engine/io", "engine/params", "engine/node", "engine/kit"}, {}},
     {"cli",
-     {"engine/json", "engine/color", "engine/io", "engine/params", "engine/node", "engine/kit",
+     {"engine/json", "engine/color", "engine/io", "engine/params", "engine/node", "engine/kit", "engine/look",
       "engine/measure", "engine/graph", "engine/plan", "engine/run"},
      {"CLI/"}},
 };

@@ -48,7 +48,7 @@ protected:
         return out;
     }
     int width_of(const std::string& name) const {
-        const std::string told = keyline({"info", name}).out;
+        const std::string told = keyline({"info", "--all", name}).out;
         const std::size_t at = told.find("data  ");
         return at == std::string::npos ? -1 : std::stoi(told.substr(at + 4));
     }

@@ -74,7 +74,7 @@ TEST_F(Formats, AreCheckedPlannedWrittenAndRead) {
     expect_success({"check", "make.json"});
     expect_success({"plan", "make.json"});
     expect_success({"render", "make.json"});
-    std::vector<std::string> info = {"info"};
+    std::vector<std::string> info = {"info", "--all"};
     for (const auto& [stem, extension] : {std::pair("half/{}", ""), std::pair("as_exr/{}", "exr")}) {
         use(stem, extension);
         expect_success({"check", "graph.json"});

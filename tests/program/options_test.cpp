@@ -35,7 +35,7 @@ protected:
     }
     // What `info` tells of an image, its name left out.
     std::string info(const std::string& name) const {
-        const std::string out = keyline({"info", name}).out;
+        const std::string out = keyline({"info", "--all", name}).out;
         return out.substr(std::min(out.size(), out.find('\n')));
     }
 };

@@ -225,7 +225,7 @@ TEST_F(Report, TheSchemaKnowsTypesRangesAndWords) {
 }
 
 TEST_F(Report, InfoTellsAPlate) {
-    const Outcome run = keyline({"info", plate()});
+    const Outcome run = keyline({"info", "--all", plate()});
     EXPECT_EQ(run.status, 0) << run.err;
     for (const char* text : {"openexr, 1 part", "480 × 270 at (0, 0)", "scanline, zip",
                              "ViewLayer.Combined: R G B A half", "ViewLayer.Depth: Z float", "cryptomatte/"})

@@ -37,7 +37,7 @@ void require_sound(const std::filesystem::path& file, const PictureHeader& h, co
     };
     if (h.is_deep) refuse("a deep image, which Keyline does not read");
     if (h.depth > 1) refuse(fmt::format("a volume of {} slices, which Keyline does not read", h.depth));
-    if (h.channels.empty()) refuse("the image has no channels");
+    if (h.channels.empty() || h.types.size() != h.channels.size()) refuse("the image has no channels");
     if (window(h.x, h.y, h.width, h.height).empty())
         refuse(fmt::format("damaged header: a window of {} x {} pixels at ({}, {})", h.width, h.height, h.x,
                            h.y));
@@ -122,7 +122,7 @@ void copy_halves(const std::byte* from, const RowLayout& layout, int n, std::byt
     for (int i = 0; i < n; ++i, from += layout.step, to += 2) std::memcpy(to, from + layout.channel, 2);
 }
 
-class Picture : public FileSource {
+class Picture final : public PictureSource {
 public:
     Picture(const std::filesystem::path& file, const OpenOptions& options) {
         PictureRequest request{file.string(), options.part, false};
@@ -163,6 +163,7 @@ private:
         if (header_.display_window.empty()) header_.display_window = header_.data_window;
         header_.metadata = h.metadata;
         header_.format = h.format;
+        stored_types_ = h.types;
         const SampleType type = sample_ == Sample::kHalf ? SampleType::kHalf : SampleType::kFloat;
         header_.groups = {{channels_of(h, type), header_.data_window, h.width, bands_->band_height()}};
     }
@@ -197,7 +198,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<FileSource> open_picture(const std::filesystem::path& file, const OpenOptions& options) {
+std::unique_ptr<PictureSource> open_picture(const std::filesystem::path& file, const OpenOptions& options) {
     return std::make_unique<Picture>(file, options);
 }
 

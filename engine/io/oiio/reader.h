@@ -6,8 +6,19 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace keyline::oiio {
+
+class PictureSource : public FileSource {
+public:
+    // Of the channels in the file: "uint8", "half", …
+    const std::vector<std::string>& stored_types() const { return stored_types_; }
+
+protected:
+    std::vector<std::string> stored_types_;
+};
 
 // Opens a picture with OpenImageIO.  Samples of integers become value / maximum, as the nearest float; half
 // and float stay what they are.  Colour that the file has not multiplied by its alpha is multiplied here, in
@@ -15,6 +26,6 @@ namespace keyline::oiio {
 //
 // A file of several pictures (pages, frames, layers) gives its first; `part` names another, by number or
 // name. Throws Failure (kInput) as open_image() does.
-std::unique_ptr<FileSource> open_picture(const std::filesystem::path& file, const OpenOptions& options);
+std::unique_ptr<PictureSource> open_picture(const std::filesystem::path& file, const OpenOptions& options);
 
 }  // namespace keyline::oiio
