@@ -9,6 +9,9 @@
 #include "engine/kit/strokes_json.h"
 #include "engine/measure/accuracy.h"
 #include "engine/measure/form.h"
+#include "engine/measure/motion.h"
+#include "engine/params/file_name.h"
+#include "engine/params/frames.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -19,7 +22,7 @@ namespace keyline::cli {
 namespace {
 
 struct MeasureArguments {
-    std::string drawing, truth, extra, missed;
+    std::string drawing, truth, extra, missed, frames, vector;
     AccuracyOptions accuracy;
     bool json = false;
 };
@@ -116,19 +119,76 @@ std::string json_of(const Measured& measured, const MeasureArguments& a) {
     return json.end_object().text() + "\n";
 }
 
-int run(const MeasureArguments& a) {
+void write(const std::string& file, const Strokes& strokes) {
+    if (!file.empty()) write_text_file(file, strokes_json(strokes));
+}
+
+int measure_one(const MeasureArguments& a) {
     if (a.truth.empty() && !(a.extra.empty() && a.missed.empty()))
         fail(ErrorKind::kGraph, "what is extra or missed shows against a truth", "give its file too");
     const Strokes drawing = read_strokes(a.drawing);
     Measured measured{form_of(drawing), {}};
     if (!a.truth.empty()) measured.accuracy = accuracy_of(drawing, read_strokes(a.truth), a.accuracy);
-    if (!a.extra.empty()) write_text_file(a.extra, strokes_json(measured.accuracy->extra));
-    if (!a.missed.empty()) write_text_file(a.missed, strokes_json(measured.accuracy->missed));
+    if (measured.accuracy) {
+        write(a.extra, measured.accuracy->extra);
+        write(a.missed, measured.accuracy->missed);
+    }
     print_result(a.json ? json_of(measured, a)
                         : escaped(a.drawing) + "\n" +
                               (measured.accuracy ? text_of(*measured.accuracy, a) : std::string()) +
                               text_of(measured.form));
     return 0;
+}
+
+std::string text_of(const Steadiness& s, const MeasureArguments& a) {
+    std::string out =
+        fmt::format("{}, frames {}, as {} has them move\n", escaped(a.drawing), a.frames, escaped(a.vector));
+    const auto line = [&](const char* name, const std::string& text) {
+        out += fmt::format("    {:<17}{}\n", name, text);
+    };
+    line("looked for", fmt::format("{:.0f} pixels in {} pairs of frames", s.length, s.pairs));
+    line("swim", fmt::format("{:.3f} pixels, rms {:.3f}, at most {:.3f} (95 %)", s.swim.robust, s.swim.rms,
+                             s.swim.most));
+    line("pops", fmt::format("{:.2f} %, flecks {:.2f} %", 100 * s.pops, 100 * s.flecks));
+    line("lost ink", fmt::format("{:.2f} %", 100 * s.lost_ink));
+    line("drift", fmt::format("{:.3f} pixels from the first frame to the last, of {:.0f} that stay in view",
+                              s.drift, s.drifted));
+    return out;
+}
+
+std::string json_of(const Steadiness& s, const MeasureArguments& a) {
+    JsonWriter json(JsonWriter::Style::kIndented);
+    json.begin_object().field("file", a.drawing).field("frames", a.frames).field("vector", a.vector);
+    json.field("pairs", s.pairs).field("pixels", s.length).field("swim", s.swim.robust);
+    json.field("swimRms", s.swim.rms).field("swimMost", s.swim.most).field("pops", s.pops);
+    json.field("flecks", s.flecks).field("lostInk", s.lost_ink).field("drift", s.drift);
+    return json.field("driftPixels", s.drifted).end_object().text() + "\n";
+}
+
+int measure_frames(const MeasureArguments& a) {
+    if (a.vector.empty() || a.frames.empty())
+        fail(ErrorKind::kGraph, "frames are held against each other by '--frames' and '--vector'",
+             "give both");
+    if (!a.truth.empty())
+        fail(ErrorKind::kGraph, "a truth is for one frame",
+             "leave out '--frames' and '--vector', or the truth");
+    const std::size_t colon = a.vector.find_last_of(':');
+    const bool has_layer = colon != std::string::npos && a.vector.find('/', colon) == std::string::npos;
+    const FileName drawings(a.drawing), passes(has_layer ? a.vector.substr(0, colon) : a.vector);
+    const std::string layer = has_layer ? a.vector.substr(colon + 1) : "Vector";
+    std::vector<MovingFrame> frames;
+    for (const int frame : parse_frames(a.frames))
+        frames.push_back({read_strokes(drawings.at(frame).string()), read_motion(passes.at(frame), layer)});
+    if (frames.size() < 2)
+        fail(ErrorKind::kGraph, "one frame has no other to be held against",
+             "give two and more to '--frames'");
+    const Steadiness steadiness = steadiness_of(frames, a.accuracy);
+    print_result(a.json ? json_of(steadiness, a) : text_of(steadiness, a));
+    return 0;
+}
+
+int run(const MeasureArguments& a) {
+    return a.frames.empty() && a.vector.empty() ? measure_one(a) : measure_frames(a);
 }
 
 }  // namespace
@@ -146,6 +206,10 @@ void add_measure(CLI::App& program, Chosen& chosen) {
     command.add_option("--angle", a->accuracy.angle, "How far it may turn away from it")
         ->type_name("DEGREES")
         ->check(CLI::Range(0.0, 90.0));
+    add_value_option(command, "--frames", a->frames, "SPEC",
+                     "Hold these frames against each other, as 1-24; STROKES names them by #");
+    add_value_option(command, "--vector", a->vector, "FILE[:LAYER]",
+                     "How pixels move: images with a layer of X Y Z W, as Cycles' Vector");
     add_value_option(command, "--extra", a->extra, "FILE", "Write what is drawn and not true, as strokes");
     add_value_option(command, "--missed", a->missed, "FILE", "Write what is true and not drawn, as strokes");
     command.add_flag("--json", a->json, "As JSON");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/measure/accuracy.h"
 #include "engine/measure/form.h"
+#include "engine/measure/motion.h"
 #include "tests/support/strokes.h"
 
 #include <cmath>
@@ -162,6 +163,91 @@ TEST(Form, WidthIsJudgedAwayFromItsTips) {
     const Form f = form_of(drawing({wedge}));
     EXPECT_NEAR(f.width_slope, 0.1, 1e-6);
     EXPECT_NEAR(f.width_spread, 0.05, 0.02);
+}
+
+// Everything moves by (x, y) a frame, y down.
+MotionPass moving(float x, float y) {
+    const auto all = [](float v) { return std::vector<float>(static_cast<std::size_t>(kFrame.area()), v); };
+    return {kFrame, {all(-x), all(y), all(-x), all(y)}, {}};
+}
+
+Stroke moved(Stroke s, double x, double y) {
+    for (StrokeVertex& v : s.vertices) {
+        v.x += x;
+        v.y += y;
+    }
+    return s;
+}
+
+// Three frames of a scene that moves right and up.
+std::vector<MovingFrame> film(const Stroke& first, const Stroke& second, const Stroke& third) {
+    std::vector<MovingFrame> out;
+    double frame = 0;
+    for (const Stroke& s : {first, second, third}) {
+        out.push_back({drawing({moved(s, 1.5 * frame, -frame)}), moving(1.5F, -1)});
+        ++frame;
+    }
+    return out;
+}
+
+Steadiness steadiness(const std::vector<MovingFrame>& frames) { return steadiness_of(frames, {}); }
+
+TEST(Motion, LinesThatGoWithTheirSurfacesAreSteady) {
+    const Steadiness s = steadiness(film(circle(20), circle(20), circle(20)));
+    EXPECT_EQ(s.pairs, 2U);
+    EXPECT_NEAR(s.length, 4 * 2 * std::numbers::pi * 20, 2);
+    EXPECT_NEAR(s.swim.rms, 0, 0.01);
+    EXPECT_EQ(s.pops, 0);
+    EXPECT_EQ(s.lost_ink, 0);
+    EXPECT_NEAR(s.drift, 0, 0.01);
+    EXPECT_NEAR(s.drifted, 2 * std::numbers::pi * 20, 1);
+}
+
+TEST(Motion, SwimAndDriftAreAcrossTheLine) {
+    const Steadiness s = steadiness(film(circle(20), circle(20.2), circle(20.4)));
+    EXPECT_NEAR(s.swim.rms, 0.2, 0.01);
+    EXPECT_NEAR(s.drift, 0.4, 0.02);
+    EXPECT_EQ(s.pops, 0);
+}
+
+TEST(Motion, WhatBlinksIsLostInkByItsWidth) {
+    std::vector<MovingFrame> frames;
+    for (const bool seen : {true, false, true}) {
+        std::vector<Stroke> strokes{stroke({{10, 30}, {90, 30}}, 3)};
+        if (seen) strokes.push_back(stroke({{10, 60}, {50, 60}}, 1));
+        if (!seen) strokes.push_back(stroke({{10, 80}, {12, 80}}, 1));
+        frames.push_back({drawing(strokes), moving(0, 0)});
+    }
+    const Steadiness s = steadiness(frames);
+    EXPECT_NEAR(s.length, 4 * 80 + 2 * 40 + 2 * 2, 1e-6);
+    EXPECT_NEAR(s.pops, 80 / s.length, 1e-6);
+    EXPECT_NEAR(s.flecks, 4 / s.length, 1e-6);
+    EXPECT_NEAR(s.lost_ink, 84.0 / (3 * 320 + 84), 1e-6);
+}
+
+TEST(Motion, WhatLeavesTheViewOrIsCoveredDoesNotCount) {
+    std::vector<MovingFrame> frames = film(line(10, 50, 90, 50), line(10, 50, 90, 50), line(10, 50, 90, 50));
+    frames[1].drawing.strokes.clear();
+    // On the right half of the next frames there is something that came from elsewhere.
+    for (const std::size_t f : {1U, 2U})
+        for (std::size_t i = 0; i < frames[f].motion.vector[0].size(); ++i)
+            if (i % 100 >= 50) frames[f].motion.vector[0][i] = 9;
+    const Steadiness s = steadiness({frames[0], frames[1]});
+    EXPECT_NEAR(s.length, 50 - 10 - 1.5, 1);
+    EXPECT_EQ(s.pops, 1);
+}
+
+TEST(Motion, IsThatOfTheNearerSide) {
+    // Above the line something far moves otherwise; the line, which runs left, has it on its right.
+    MotionPass still = moving(0, 0);
+    still.depth.assign(still.vector[0].size(), 2);
+    for (std::size_t i = 0; i < 5000; ++i) {
+        still.depth[i] = 9;
+        for (std::vector<float>& channel : still.vector) channel[i] = 3;
+    }
+    const std::vector<MovingFrame> frames(2, {drawing({line(90, 50, 10, 50)}), still});
+    EXPECT_NEAR(steadiness(frames).length, 160, 1);
+    EXPECT_EQ(steadiness(frames).swim.rms, 0);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ const std::vector<Folder> kFolders = {
     {"engine/node", {"engine/json", "engine/params", "engine/io"}, {}},
     {"engine/kit", {"engine/json", "engine/simd", "engine/color", "engine/params", "engine/node"}, {}},
     {"engine/look", {"engine/simd", "engine/io", "engine/params", "engine/node", "engine/kit"}, {}},
-    {"engine/measure", {"engine/params", "engine/kit"}, {}},
+    {"engine/measure", {"engine/simd", "engine/io", "engine/params", "engine/kit"}, {}},
     {"engine/graph", {"engine/json", "engine/expr", "engine/params", "engine/node"}, {}},
     {"engine/plan", {"engine/color", "engine/io", "engine/params", "engine/node", "engine/graph"}, {}},
     {"engine/run",

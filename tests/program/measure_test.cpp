@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/program/program.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -68,6 +69,55 @@ TEST_F(Measure, WritesWhatIsExtraAndWhatIsMissed) {
     EXPECT_EQ(extra["kind"], "outline");
     EXPECT_NEAR(extra["points"].back()[0], 30, 0.5);
     EXPECT_NEAR(Json::parse(read(folder() / "missed.json"))["lines"][0]["points"][0][0], 70, 0.5);
+}
+
+// Two frames, in which everything goes 2 pixels to the right and the line 0.25 down.
+class MeasureFrames : public Measure {
+protected:
+    MeasureFrames() {
+        write("line.1.json", drawing(R"({ "points": [[10, 10], [70, 10]], "width": 2 })"));
+        write("line.2.json", drawing(R"({ "points": [[12, 10.25], [72, 10.25]], "width": 2 })"));
+        graph(R"("grey": { "type": "constant", "color": [-2, 0, -2, 0], "size": [100, 100] },
+                 "motion": { "type": "shuffle", "in": "grey",
+                             "channels": { "X": "R", "Y": "G", "Z": "B", "W": "A" } },
+                 "out": { "type": "write", "in": "grey", "layers": { "view.Vector": "motion" },
+                          "file": "motion.#.exr" })");
+        EXPECT_EQ(keyline({"render", "graph.json", "--frames", "1-2"}).status, 0);
+    }
+};
+
+TEST_F(MeasureFrames, TellsWhatIsSteady) {
+    const Outcome run =
+        keyline({"measure", "line.#.json", "--frames", "1-2", "--vector", "motion.#.exr:Vector"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out, R"(line.#.json, frames 1-2, as motion.#.exr:Vector has them move
+    looked for       120 pixels in 1 pairs of frames
+    swim             0.371 pixels, rms 0.250, at most 0.250 (95 %)
+    pops             0.00 %, flecks 0.00 %
+    lost ink         0.00 %
+    drift            0.250 pixels from the first frame to the last, of 60 that stay in view
+)");
+    const Outcome json =
+        keyline({"measure", "line.#.json", "--frames", "1-2", "--vector", "motion.#.exr", "--json"});
+    EXPECT_EQ(Json::parse(json.out)["pairs"], 1);
+    EXPECT_NEAR(Json::parse(json.out)["swimRms"], 0.25, 1e-6);
+}
+
+TEST_F(MeasureFrames, FaultsAreTold) {
+    const auto told = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"measure", "line.#.json"});
+        const Outcome run = keyline(more);
+        return fmt::format("{} {}", run.status, run.err);
+    };
+    EXPECT_THAT(told({"--frames", "1-2"}), HasSubstr("2 error: frames are held against each other"));
+    EXPECT_THAT(told({"--frames", "1", "--vector", "motion.#.exr"}),
+                HasSubstr("2 error: one frame has no other"));
+    EXPECT_THAT(told({"true.json", "--frames", "1-2", "--vector", "motion.#.exr"}),
+                HasSubstr("2 error: a truth is for one frame"));
+    EXPECT_THAT(told({"--frames", "1-2", "--vector", "motion.#.exr:Speed"}),
+                HasSubstr("motion.1.exr: it has no channel Speed.X; name the layer"));
+    EXPECT_THAT(told({"--frames", "1-3", "--vector", "motion.#.exr"}),
+                HasSubstr("line.3.json: no such file"));
 }
 
 TEST_F(Measure, FaultsAreTold) {
