@@ -120,7 +120,7 @@ void SweepRun::plan_outputs() {
         }
         out.encoded.resize(index(chunks));
         out.ready.resize(index(chunks), false);
-        out.chunks_left = chunks;
+        out.ended.resize(index(chunks), false);
         outputs_.push_back(std::move(out));
     }
 }
@@ -136,7 +136,14 @@ void SweepRun::plan_folds() {
 
 // Rows below this one may be worked on.
 int SweepRun::last_open_row() const {
-    return std::min(static_cast<int>(rows_.size()), lowest_row_ + plan_.rows_ahead);
+    int lowest = lowest_row_;
+    for (const Output& out : outputs_) {
+        if (out.oldest == out.chunks() || out.rows_missing[index(out.oldest)] > 0) continue;
+        const Bands& bands = *state_.sinks[index(out.sink)];
+        const int end = bands.rect(bands.first_band() + out.oldest).y1;
+        while (lowest > 0 && row_rect(lowest - 1).y0 >= end) --lowest;
+    }
+    return std::min(static_cast<int>(rows_.size()), lowest + plan_.rows_ahead);
 }
 
 // What a row of tiles writes is allocated when the row is opened.
@@ -161,15 +168,7 @@ void SweepRun::start_rows() {
 // What frees memory comes first (encoding), then what uses what is there (tiles), and only then what takes
 // more (decoding).
 std::optional<Job> SweepRun::next() {
-    if (!encodes_.empty()) {
-        const Job job = encodes_.front();
-        encodes_.pop_front();
-        // Rows that no tile lies in are all zeros.
-        Bands& bands = *state_.sinks[index(outputs_[index(job.which)].sink)];
-        const int band = bands.first_band() + job.row;
-        if (!bands.allocated(band)) bands.allocate(band, true);
-        return job;
-    }
+    if (auto job = next_encode()) return job;
     start_rows();  // now that the memory of rows done is on its way back
     if (auto job = next_tile()) return job;
     if (next_decode_ == decodes_.size()) return std::nullopt;
@@ -178,6 +177,21 @@ std::optional<Job> SweepRun::next() {
     ++next_decode_;
     Bands& bands = *state_.stores[index(job.which)];
     if (!bands.allocated(job.row)) bands.allocate(job.row, false);
+    return job;
+}
+
+std::optional<Job> SweepRun::next_encode() {
+    const auto it = std::ranges::find_if(encodes_, [&](const Job& job) {
+        const Output& out = outputs_[index(job.which)];
+        return job.row < out.oldest + plan_.threads;  // as the memory is estimated
+    });
+    if (it == encodes_.end()) return std::nullopt;
+    const Job job = *it;
+    encodes_.erase(it);
+    // Rows that no tile lies in are all zeros.
+    Bands& bands = *state_.sinks[index(outputs_[index(job.which)].sink)];
+    const int band = bands.first_band() + job.row;
+    if (!bands.allocated(band)) bands.allocate(band, true);
     return job;
 }
 
@@ -286,7 +300,7 @@ void SweepRun::completed(const Job& job) {
             Output& out = outputs_[index(job.which)];
             Bands& bands = *state_.sinks[index(out.sink)];
             bands.release(bands.first_band() + job.row, true);
-            --out.chunks_left;
+            chunk_ended(out, job.row);
             break;
         }
         default: break;
@@ -323,9 +337,14 @@ void SweepRun::chunk_row_done(Output& output, int row) {
     }
 }
 
+void SweepRun::chunk_ended(Output& output, int chunk) {
+    output.ended[index(chunk)] = true;
+    while (output.oldest < output.chunks() && output.ended[index(output.oldest)]) ++output.oldest;
+}
+
 bool SweepRun::done() const {
     return decodes_left_ == 0 && index(lowest_row_) == rows_.size() &&
-           std::ranges::all_of(outputs_, [](const Output& o) { return o.chunks_left == 0; });
+           std::ranges::all_of(outputs_, [](const Output& o) { return o.oldest == o.chunks(); });
 }
 
 }  // namespace keyline

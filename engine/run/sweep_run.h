@@ -47,7 +47,8 @@ auto naming(const std::string& title, int frame, const F& work) {
 //     committed
 //
 // Rows are worked on in order and only a few at once, so that what is held stays small when nothing has to
-// outlive the sweep.  Locking is as in FrameRun.
+// outlive the sweep.  Nobody gets farther ahead of a chunk that is being encoded: files take their chunks in
+// order, and what is encoded too early waits in memory.  Locking is as in FrameRun.
 class SweepRun {
 public:
     SweepRun(const Plan& plan, int sweep, FrameState& state, std::vector<std::unique_ptr<ImageSink>>& sinks);
@@ -81,7 +82,11 @@ private:
         std::vector<int> rows_missing;      // by chunk
         std::vector<EncodedChunk> encoded;  // by chunk: waiting for those before it
         std::vector<bool> ready;
-        int next_commit = 0, chunks_left = 0;
+        int next_commit = 0;
+        std::vector<bool> ended;  // by chunk: encoded
+        int oldest = 0;           // the first chunk that is not
+
+        int chunks() const { return static_cast<int>(rows_missing.size()); }
     };
     struct Fold {  // a gather mapped in this sweep
         int root = 0;
@@ -101,7 +106,9 @@ private:
     void row_done(int row);
     void release_bands(int row);
     void chunk_row_done(Output& output, int row);
+    void chunk_ended(Output& output, int chunk);
 
+    std::optional<Job> next_encode();
     std::optional<Job> next_tile();
     void run_decode(const Job& job, int worker) const;
     void run_tile(const Job& job, TileWorker& worker);

@@ -7,6 +7,8 @@
 #include "tests/support/run.h"
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <gmock/gmock.h>
 #include <map>
 #include <mutex>
@@ -137,6 +139,63 @@ struct Counted {
     }
 };
 
+// A file whose first chunk takes its time: until others can't get farther ahead of it, and a little longer.
+class SlowSink final : public ImageSink {
+public:
+    static constexpr int kThreads = 3;
+
+    explicit SlowSink(const SinkSpec& spec) : window_(spec.data_window), channels_(spec.channels) {}
+    Rect region() const override { return window_; }
+    int chunk_height() const override { return 4; }
+    const std::vector<ChannelInfo>& channels() const override { return channels_; }
+    EncodedChunk encode(int index, std::span<const Plane>) const override {
+        std::unique_lock lock(mutex_);
+        if (is_first_under_way_) farthest() = std::max(farthest().load(), index);
+        if (index == 0) {
+            is_first_under_way_ = true;
+            changed_.wait_for(lock, std::chrono::seconds(20), [] { return farthest() >= kThreads - 1; });
+            changed_.wait_for(lock, std::chrono::milliseconds(50), [] { return farthest() >= kThreads; });
+            is_first_under_way_ = false;
+        }
+        changed_.notify_all();
+        return {index, {}};
+    }
+    void commit(EncodedChunk) override {}
+    void finish() override {}
+
+    static std::atomic<int>& farthest() {  // chunk, while the first was encoded
+        static std::atomic<int> index = 0;
+        return index;
+    }
+
+private:
+    Rect window_;
+    std::vector<ChannelInfo> channels_;
+    mutable std::mutex mutex_;
+    mutable std::condition_variable changed_;
+    mutable bool is_first_under_way_ = false;
+};
+
+struct WriteSlowly {
+    static constexpr Info info{"write_slowly", "Takes its time."};
+    struct Params {
+        Input in;
+        static constexpr auto fields = declare(input(&Params::in, "in", "The image."));
+    };
+    explicit WriteSlowly(const Params& p) : in(p.in) {}
+    void write(Builder& builder) const {
+        SinkRequest request;
+        request.stream = builder.input(in);
+        request.spec.display_window = request.stream.display;
+        request.spec.data_window = request.stream.window;
+        for (const StreamChannel& c : request.stream.channels)
+            request.spec.channels.push_back({c.name, SampleType::kFloat});
+        request.create = [](const SinkSpec& spec) { return std::make_unique<SlowSink>(spec); };
+        builder.add_sink(std::move(request));
+    }
+    const Input in;
+};
+
 CountedSource::Count decoded_for(Json nodes, const std::string& id, const PlanOptions& options = {2, 0, 0}) {
     register_test_nodes<Counted, Crop>();
     nodes.set("in", {{"type", "counted"}});
@@ -174,6 +233,18 @@ TEST(Execute, DecodesEachChunkOnceWhereThereIsMemory) {
         for (const auto& [where, times] : counted)
             EXPECT_EQ(times, 1) << where[0] << ' ' << where[1] << ' ' << where[2];
     }
+}
+
+// What is encoded before its turn waits in memory: as many chunks as there are threads, which is what the
+// estimate of memory says.
+TEST(Execute, NobodyGetsFarAheadOfAChunkThatIsBeingEncoded) {
+    register_test_nodes<WriteSlowly>();
+    SlowSink::farthest() = 0;
+    Plan plan = make_plan(resolve_graph({{"n", {{"type", "write_slowly"}, {"in", "in"}}}}, {},
+                                        {{"in", {Image({0, 0, 8, 400}, {"Y"})}}}),
+                          {SlowSink::kThreads, 8, 0});
+    Executor(SlowSink::kThreads, 0).run(std::make_unique<FrameRun>(std::move(plan)), false);
+    EXPECT_EQ(SlowSink::farthest(), SlowSink::kThreads - 1);
 }
 
 TEST(Execute, ANodesFailureNamesNodeAndFrame) {

@@ -163,6 +163,7 @@ std::span<const std::byte> Packer::packed_in_helper(const Rect& rect) {
     unpacked.metadata = {};
     std::vector<std::byte> chunks;
     const std::size_t row = block_.pixel_bytes() * static_cast<std::size_t>(rect.width());
+    chunks.reserve(static_cast<std::size_t>(rect.height()) * (row + 2 * sizeof(int32_t)));
     for (int y = rect.y0; y < rect.y1; ++y) {
         append(chunks, int32_t{y});
         append(chunks, static_cast<uint32_t>(row));

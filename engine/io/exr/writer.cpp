@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <mutex>
 #include <numeric>
 
 namespace keyline::exr {
@@ -88,7 +89,8 @@ public:
         std::vector<std::byte> zero(sizeof(float));
         for (const std::size_t i : order_)
             sorted.push_back(is_empty_ ? Plane{zero.data(), 0, channels_[i].type, whole} : planes[i]);
-        EncodedChunk encoded{index, {}};
+        EncodedChunk encoded{index, spare_buffer()};
+        encoded.bytes.reserve(most_bytes(whole));  // one that grows would be held twice
         const auto packer = packers_.take();
         for (int y = whole.y0; y < whole.y1; y += layout_.rows_per_chunk())
             packer->pack(intersect(whole, {whole.x0, y, whole.x1, y + layout_.rows_per_chunk()}), sorted,
@@ -104,6 +106,9 @@ public:
         for (std::size_t at = 0; at < bytes.size(); at += std::size_t{8} + get<uint32_t>(bytes, at + 4))
             offsets_.push_back(file_.size() + at);
         file_.append(bytes);
+        chunk.bytes.clear();
+        const std::scoped_lock lock(spare_mutex_);
+        spare_.push_back(std::move(chunk.bytes));
     }
 
     void finish() override {
@@ -119,6 +124,23 @@ private:
         const Rect& window = layout_.data_window;
         const int y = window.y0 + index * chunk_height();
         return intersect(window, {window.x0, y, window.x1, y + chunk_height()});
+    }
+
+    // What a chunk before was in: to get its pages anew takes longer than to copy what is not compressed.
+    std::vector<std::byte> spare_buffer() const {
+        const std::scoped_lock lock(spare_mutex_);
+        if (spare_.empty()) return {};
+        std::vector<std::byte> buffer = std::move(spare_.back());
+        spare_.pop_back();
+        return buffer;
+    }
+
+    // What can't be compressed is as large as it was, and has its place and size before it.
+    std::size_t most_bytes(const Rect& rect) const {
+        std::size_t pixel = 0;
+        for (const StoredChannel& c : layout_.channels) pixel += sample_size(c.type);
+        const auto chunks = static_cast<std::size_t>(rect.height() / layout_.rows_per_chunk() + 1);
+        return pixel * static_cast<std::size_t>(rect.area()) + chunks * 2 * sizeof(int32_t);
     }
 
     // What is wrong here would be read past its end below.
@@ -141,6 +163,8 @@ private:
     OutputFile file_;
     int next_ = 0;
     std::vector<uint64_t> offsets_;  // of the chunks committed
+    mutable std::mutex spare_mutex_;
+    mutable std::vector<std::vector<std::byte>> spare_;
 };
 
 // What rounds floats would make other ids of them.
