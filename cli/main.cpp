@@ -182,7 +182,7 @@ int main(int argc, char** argv) {
         return run(argc, argv);
     } catch (...) {
         const Error error = error_of(std::current_exception());
-        print_message(error.text());
+        print_error(error);
         return exit_status(error);
     }
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/report.h"
 
+#include "cli/excerpt.h"
+
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -31,9 +33,13 @@ void print_message(std::string_view line) {
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
+void print_error(const Error& error) { print_message(styled_error(error, message_style())); }
+
+void print_warning(const Error& warning) { print_message(styled_warning(warning, message_style())); }
+
 namespace {
 
-std::atomic<void (*)(const Error&)> library_printer{[](const Error& e) { print_message(e.warning_text()); }};
+std::atomic<void (*)(const Error&)> library_printer{print_warning};
 
 }  // namespace
 
@@ -44,8 +50,8 @@ void print_library_warning(const std::string& library, const std::string& text) 
 void print_library_warnings_with(void (*print)(const Error&)) { library_printer = print; }
 
 void report(const Diagnostics& diagnostics) {
-    for (const Error& w : diagnostics.warnings()) print_message(w.warning_text());
-    for (const Error& e : diagnostics.errors()) print_message(e.text());
+    for (const Error& w : diagnostics.warnings()) print_warning(w);
+    for (const Error& e : diagnostics.errors()) print_error(e);
 }
 
 Error error_of(const std::exception_ptr& thrown) {

@@ -23,6 +23,10 @@ void print_result(std::string_view text);
 // One line to standard error.  A reader that went away stops no render.
 void print_message(std::string_view line);
 
+// An error or a warning; on a terminal with the line that it is about, and colour.
+void print_error(const Error& error);
+void print_warning(const Error& warning);
+
 // What a library has to say beside its results, as a warning.
 void print_library_warning(const std::string& library, const std::string& text);
 

@@ -42,8 +42,8 @@ double RunBooks::part() const {
     return parts / static_cast<double>(frames);
 }
 
-void Voice::warning(const Error& warning) { print_message(warning.warning_text()); }
-void Voice::error(const Error& error) { print_message(error.text()); }
+void Voice::warning(const Error& warning) { print_warning(warning); }
+void Voice::error(const Error& error) { print_error(error); }
 
 void Voice::stopped(const std::string& signal) {
     print_message(fmt::format("stopped by {}; no unfinished output is left", signal));

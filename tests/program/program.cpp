@@ -44,12 +44,11 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
     return out;
 }
 
-// The tests' own environment without what the program looks at.
+// The tests' own environment without what the program looks at, behind what is set: of two the first counts.
 std::vector<std::string> environment_with(const std::vector<std::string>& more) {
-    std::vector<std::string> out;
+    std::vector<std::string> out = more;
     for (char** e = environ; *e != nullptr; ++e)
         if (!std::string_view(*e).starts_with("OCIO")) out.emplace_back(*e);
-    out.insert(out.end(), more.begin(), more.end());
     return out;
 }
 
