@@ -23,5 +23,6 @@ void add_verify(CLI::App& program, Chosen& chosen);
 void add_provenance(CLI::App& program, Chosen& chosen);
 void add_measure(CLI::App& program, Chosen& chosen);
 void add_info(CLI::App& program, Chosen& chosen);
+void add_diff(CLI::App& program, Chosen& chosen);
 
 }  // namespace keyline::cli

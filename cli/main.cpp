@@ -156,6 +156,7 @@ int run(int argc, char** argv) {
     add_nodes(program, chosen);
     add_schema(program, chosen);
     add_info(program, chosen);
+    add_diff(program, chosen);
     add_measure(program, chosen);
     add_verify(program, chosen);
     add_provenance(program, chosen);

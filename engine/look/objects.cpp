@@ -3,10 +3,10 @@
 #include "engine/look/objects.h"
 
 #include "engine/base/error.h"
-#include "engine/base/index.h"
 #include "engine/kit/cryptomatte.h"
 #include "engine/kit/manifest_text.h"
 #include "engine/look/scan.h"
+#include "engine/look/source_channels.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,34 +16,6 @@
 namespace keyline {
 
 namespace {
-
-struct ChannelPlace {
-    std::size_t group = 0, channel = 0;
-};
-
-// The channels of all groups in turn; the stream's values refer to them by their number, as output of no
-// operation.
-struct Channels {
-    explicit Channels(const ImageSource& source) {
-        const ImageHeader& header = source.header();
-        stream.metadata = std::make_shared<Metadata>(header.metadata);
-        stream.file = header.file;
-        for (std::size_t g = 0; g < header.groups.size(); ++g)
-            for (std::size_t c = 0; c < header.groups[g].channels.size(); ++c) {
-                const ChannelInfo& info = header.groups[g].channels[c];
-                stream.channels.push_back({info.name, {-1, static_cast<int>(places.size())}});
-                types.push_back(info.type);
-                places.push_back({g, c});
-            }
-        learn_channels(stream, types);
-    }
-    const ChannelPlace& place(ValueRef value) const { return places[index(value.output)]; }
-    SampleType type(ValueRef value) const { return types[index(value.output)]; }
-
-    Stream stream;
-    std::vector<SampleType> types;
-    std::vector<ChannelPlace> places;
-};
 
 // Names by id.
 class Names {
@@ -66,7 +38,7 @@ private:
     std::map<uint32_t, std::string> names_;
 };
 
-void require_ids(const Channels& channels, const Cryptomatte& matte, const Cryptomatte::Rank& rank) {
+void require_ids(const SourceChannels& channels, const Cryptomatte& matte, const Cryptomatte::Rank& rank) {
     if (channels.type(rank.id) == SampleType::kHalf)
         fail(ErrorKind::kInput,
              fmt::format("the ids of the Cryptomatte {} are stored as half, which destroys them",
@@ -80,10 +52,10 @@ void require_ids(const Channels& channels, const Cryptomatte& matte, const Crypt
 using Visit = std::function<void(int x, int y, uint32_t id, double coverage)>;
 
 // Every pixel of one rank in a region that shows an object.
-void scan_rank(const ImageSource& source, const Channels& channels, const Cryptomatte& matte,
+void scan_rank(const ImageSource& source, const SourceChannels& channels, const Cryptomatte& matte,
                const Cryptomatte::Rank& rank, const Rect& region, const Visit& visit) {
     require_ids(channels, matte, rank);
-    const ChannelPlace id = channels.place(rank.id), coverage = channels.place(rank.coverage);
+    const SourceChannels::Place id = channels.place(rank.id), coverage = channels.place(rank.coverage);
     std::vector<bool> wanted(source.header().groups[id.group].channels.size());
     wanted[id.channel] = wanted[coverage.channel] = true;
     std::vector<uint32_t> ids;
@@ -98,7 +70,7 @@ void scan_rank(const ImageSource& source, const Channels& channels, const Crypto
     });
 }
 
-SeenCryptomatte look_at(const ImageSource& source, const Channels& channels, const Cryptomatte& matte) {
+SeenCryptomatte look_at(const ImageSource& source, const SourceChannels& channels, const Cryptomatte& matte) {
     SeenCryptomatte out{matte.shown_name(), {}, 0, {}};
     const Names names(matte, out.faults);
     std::map<uint32_t, SeenObject> seen;
@@ -125,7 +97,7 @@ SeenCryptomatte look_at(const ImageSource& source, const Channels& channels, con
 }  // namespace
 
 std::vector<SeenCryptomatte> objects_of(const ImageSource& source) {
-    const Channels channels(source);
+    const SourceChannels channels(source);
     std::vector<SeenCryptomatte> out;
     for (const Cryptomatte& matte : cryptomattes_of(channels.stream))
         out.push_back(look_at(source, channels, matte));
@@ -133,7 +105,7 @@ std::vector<SeenCryptomatte> objects_of(const ImageSource& source) {
 }
 
 Pixel pixel_of(const ImageSource& source, int x, int y) {
-    const Channels channels(source);
+    const SourceChannels channels(source);
     const Rect one{x, y, x + 1, y + 1};
     Pixel out;
     std::vector<double> row;
