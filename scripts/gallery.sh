@@ -40,7 +40,10 @@ done
 scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
 render lines_over_beauty --var look="$PWD/$images/lines_over_beauty.png" --var out="$scratch/lines.exr"
-build/release/bin/keyline render graphs/garden.json --frames 12 --progress none --var out="$PWD/$images/garden.png"
+for graph in garden poster; do
+  build/release/bin/keyline render graphs/$graph.json --frames 12 --progress none --no-provenance \
+    --var out="$PWD/$images/$graph.png"
+done
 render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
 
 {
@@ -54,6 +57,12 @@ render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
   echo "$(about garden). [graphs/garden.json](../graphs/garden.json)"
   echo
   echo "![garden](images/garden.png)"
+  echo
+  echo "## poster"
+  echo
+  echo "$(about poster). [graphs/poster.json](../graphs/poster.json)"
+  echo
+  echo "![poster](images/poster.png)"
   echo
   row toon beauty "Shadows are where the render has them, in two flat tones; each outline is closed, and its ink takes \
 after the object that it belongs to."

@@ -422,6 +422,21 @@ TEST_F(Channels, AnAlphaIsNoMagnitude) {
     EXPECT_EQ(write_of("h", "", R"("h": { "type": "hysteresis", "in": "r:A", "low": 0.1 }, )").status, 0);
 }
 
+TEST_F(Channels, APaletteTellsWhatItForgets) {
+    graph(fmt::format(R"("r": {{ "type": "read", "file": "{}" }},
+                         "p": {{ "type": "palette", "in": "r", "layer": "CryptoObject",
+                                 "values": {{ "post*": 1, "post03": 2, "suzane": 3 }} }},
+                         "out": {{ "type": "write", "in": "p", "file": "out.exr" }})",
+                      (plates() / "street_passes.0024.exr").string()));
+    const Outcome run = keyline({"check", "graph.json"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.err, HasSubstr("'values': all that 'post03' matches has an entry before it"));
+    EXPECT_THAT(run.err,
+                HasSubstr("none of the 22 objects of the Cryptomatte is 'suzane'; did you mean 'suzanne'?"));
+    EXPECT_THAT(run.err, HasSubstr("'values' has nothing for 8 of 22 objects: 'ball', "));
+    EXPECT_THAT(run.err, HasSubstr("an entry \"*\" is for all others"));
+}
+
 // Damaged files have attributes without a type.
 TEST_F(Channels, WhatNoFileCanHoldIsDroppedAndTold) {
     Image image = two_objects();
