@@ -29,6 +29,18 @@ row() {
   echo
 }
 
+# graph, and what to look for
+hand() {
+  echo "## $1"
+  echo
+  echo "$(about "$1"). [graphs/$1.json](../graphs/$1.json)"
+  echo
+  echo "![$1](images/$1.webp)"
+  echo
+  echo "$2"
+  echo
+}
+
 render passes --var out="$PWD/$images/pass"
 for pass in beauty albedo light normals near; do
   mv "$images/pass/$pass.00$frame.png" "$images/pass-$pass.png"
@@ -43,6 +55,9 @@ render lines_over_beauty --var look="$PWD/$images/lines_over_beauty.png" --var o
 for graph in garden poster; do
   build/release/bin/keyline render graphs/$graph.json --frames 12 --progress none --no-provenance \
     --var out="$PWD/$images/$graph.png"
+done
+for hand in cleanup brush pencil technical comic; do
+  build/release/bin/keyline render "graphs/$hand.json" --frames 12 --progress none --var out="$PWD/$images/$hand.webp"
 done
 render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
 
@@ -64,6 +79,11 @@ render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
   echo
   echo "![poster](images/poster.png)"
   echo
+  hand cleanup "Every line closed and of one width, as painters want it; blue is where the shadow will end."
+  hand brush "The side away from the sun swells, ends lift, and what is painted dark is filled."
+  hand pencil "Each line twice, by a hand that looks for it; the hatching does not move when the lines do."
+  hand technical "What stands before nothing is heavy, what is inside is fine."
+  hand comic "One knob makes it, 'map': lines are four times as wide in the shade as in the sun."
   row toon beauty "Shadows are where the render has them, in two flat tones; each outline is closed, and its ink takes \
 after the object that it belongs to."
   row ink albedo "Strokes: each line has one width along its way, grows thin where it fades, and ends in a tip where it \

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/stroke_samples.h"
 #include "engine/kit/strokes.h"
 #include "engine/kit/wildcard.h"
 #include "engine/node/node_adaptor.h"
@@ -53,93 +54,98 @@ struct Pattern {
     std::optional<std::string> far;
 };
 
-struct Weight {
-    static constexpr Info info{"weight",
-                               "How wide strokes are: a width, times what each is and where it is."};
+struct WeightParams {
+    Input in;
+    double width = 2;
+    Units units = Units::kDisplay;
+    std::optional<ByDepth> by_depth;
+    double by_curvature = 0;
+    std::array<double, 2> by_angle{1, 1};
+    Map<double> by_kind, by_object;
+    std::optional<Input> map;
+    std::array<double, 2> by_map{0, 1};
+    double min = 0.3;
+    double smooth = 8;
 
+    static constexpr auto fields = declare(
+        input(&WeightParams::in, "in", "The strokes; what their width is already is a factor, too.",
+              data<Strokes>()),
+        field(&WeightParams::width, "width", "Across, where all factors are 1.", between(0, 500)),
+        field(&WeightParams::units, "units", "What lengths are measured in."),
+        field(&WeightParams::by_depth, "by_depth", "What is nearer is wider: (reference / depth)^power."),
+        field(&WeightParams::by_curvature, "by_curvature",
+              "How much wider where a stroke bends: this much more, times the width, at a radius of 10.",
+              between(-1, 4)),
+        field(&WeightParams::by_angle, "by_angle",
+              "The factors where the surfaces on both sides go on into each other, and where they are back "
+              "to back.",
+              at_least(0).tested_to(4)),
+        field(&WeightParams::by_kind, "by_kind", "The factors of kinds: { \"crease\": 0.6 }.",
+              at_least(0).tested_to(4)),
+        field(&WeightParams::by_object, "by_object",
+              "The factors of objects by name, in which * stands for any characters, and of pairs of the "
+              "nearer and the farther: { \"hair*\": 0.5, \"hair* × face*\": 0 }. Of several, all count.",
+              at_least(0).tested_to(4)),
+        input(&WeightParams::map, "map",
+              "An image of one channel that widths follow, looked up beside the line on what it belongs to: "
+              "light, or what somebody painted.",
+              matte()),
+        field(&WeightParams::by_map, "by_map",
+              "The factors where the map is 0, and where it is 1: [1.5, 0.6] is heavy in the shade.",
+              at_least(0).tested_to(4)),
+        field(&WeightParams::min, "min",
+              "No factors make a stroke narrower than this share, unless one is 0.", between(0, 1)),
+        field(&WeightParams::smooth, "smooth", "The length along a stroke over which changes are evened out.",
+              between(0, 200)));
+};
+
+// No map: none of its samples.
+struct NoSamples {
     struct Params {
-        Input in;
-        double width = 2;
-        Units units = Units::kDisplay;
-        std::optional<ByDepth> by_depth;
-        double by_curvature = 0;
-        std::array<double, 2> by_angle{1, 1};
-        Map<double> by_kind, by_object;
-        double min = 0.3;
-        double smooth = 8;
+        static constexpr auto fields = declare();
+    };
+    static StrokeSamples derive(const Inputs&) { return {}; }
+    static std::size_t datum_bytes() { return 0; }
+};
 
-        static constexpr auto fields = declare(
-            input(&Params::in, "in", "The strokes; what their width is already is a factor, too.",
-                  data<Strokes>()),
-            field(&Params::width, "width", "Across, where all factors are 1.", between(0, 500)),
-            field(&Params::units, "units", "What lengths are measured in."),
-            field(&Params::by_depth, "by_depth", "What is nearer is wider: (reference / depth)^power."),
-            field(&Params::by_curvature, "by_curvature",
-                  "How much wider where a stroke bends: this much more, times the width, at a radius of 10.",
-                  between(-1, 4)),
-            field(
-                &Params::by_angle, "by_angle",
-                "The factors where the surfaces on both sides go on into each other, and where they are back "
-                "to back.",
-                at_least(0).tested_to(4)),
-            field(&Params::by_kind, "by_kind", "The factors of kinds: { \"crease\": 0.6 }.",
-                  at_least(0).tested_to(4)),
-            field(&Params::by_object, "by_object",
-                  "The factors of objects by name, in which * stands for any characters, and of pairs of the "
-                  "nearer and the farther: { \"hair*\": 0.5, \"hair* × face*\": 0 }. Of several, all count.",
-                  at_least(0).tested_to(4)),
-            field(&Params::min, "min", "No factors make a stroke narrower than this share, unless one is 0.",
-                  between(0, 1)),
-            field(&Params::smooth, "smooth", "The length along a stroke over which changes are evened out.",
-                  between(0, 200)));
+struct Weigh {
+    struct Params {
+        Input strokes, samples;
+        static constexpr auto fields = declare(input(&Params::strokes, "strokes", "", data<Strokes>()),
+                                               input(&Params::samples, "samples", "", data<StrokeSamples>()));
     };
 
-    static void check(const Params& p, Check& c) {
-        for (const auto& [kind, factor] : p.by_kind.entries)
-            if (!kind_of_word(kind))
-                c.error("by_kind", fmt::format("there is no kind {}", in_quotes(kind)),
-                        did_you_mean(kind, kind_words()));
-        if (p.by_depth && p.by_depth->range[0] > p.by_depth->range[1])
-            c.error("by_depth",
-                    fmt::format("'range' is from {} down to {}", p.by_depth->range[0], p.by_depth->range[1]));
-    }
-
-    explicit Weight(Params p) : params(std::move(p)) {
+    explicit Weigh(WeightParams p) : params(std::move(p)) {
         for (const auto& [pattern, factor] : params.by_object.entries)
             by_object.emplace_back(Pattern(pattern), factor);
     }
 
     Strokes derive(const Inputs& in) const {
-        Strokes out = in.datum<Strokes>(params.in);
+        Strokes out = in.datum<Strokes>(0);
         const double unit = params.units == Units::kPixels ? 1 : display_unit(out);
-        for (Stroke& s : out.strokes) {
-            const double whole = factor_of(out, s);
-            for (StrokeVertex& v : s.vertices) {
-                const double factor = whole * factor_at(v, unit);
+        auto sample = in.datum<StrokeSamples>(1).samples.begin();
+        const auto end = in.datum<StrokeSamples>(1).samples.end();
+        for (uint32_t s = 0; s < out.strokes.size(); ++s) {
+            Stroke& stroke = out.strokes[s];
+            const double whole = factor_of(out, stroke);
+            for (uint32_t i = 0; i < stroke.vertices.size(); ++i) {
+                StrokeVertex& v = stroke.vertices[i];
+                double factor = whole * factor_at(v, unit);
+                const bool sampled = sample != end && sample->stroke == s && sample->vertex == i;
+                if (params.map) factor *= factor_of_map(sampled ? double{(sample++)->value} : 0);
                 v.width *= factor > 0 ? std::max(factor, params.min) : 0;
             }
-            even_out(s, params.smooth * unit);
-            for (StrokeVertex& v : s.vertices) v.width *= params.width * unit;
+            even_out(stroke, params.smooth * unit);
+            for (StrokeVertex& v : stroke.vertices) v.width *= params.width * unit;
         }
         return out;
     }
     static std::size_t datum_bytes() { return kUsualStrokes; }
 
-    const Params params;
+    const WeightParams params;
     std::vector<std::pair<Pattern, double>> by_object;
 
 private:
-    static std::vector<std::string> kind_words() {
-        std::vector<std::string> out;
-        for (const auto& w : words(StrokeKind{})) out.emplace_back(w.word);
-        return out;
-    }
-    static std::optional<StrokeKind> kind_of_word(std::string_view word) {
-        for (const auto& w : words(StrokeKind{}))
-            if (w.word == word) return w.value;
-        return {};
-    }
-
     // Of all of a stroke.
     double factor_of(const Strokes& all, const Stroke& s) const {
         const auto name = [&](uint32_t id) {
@@ -166,6 +172,12 @@ private:
         return factor;
     }
 
+    // What is no number changes nothing.
+    double factor_of_map(double value) const {
+        if (value != value) return 1;
+        return params.by_map[0] + (params.by_map[1] - params.by_map[0]) * std::clamp(value, 0.0, 1.0);
+    }
+
     // The mean over a length along the stroke, what is near counting more.
     static void even_out(Stroke& s, double length) {
         if (!(length > 0)) return;
@@ -190,6 +202,47 @@ private:
             add(i, 1, sum, weights);
             s.vertices[static_cast<std::size_t>(i)].width = sum / weights;
         }
+    }
+};
+
+struct Weight {
+    static constexpr Info info{"weight",
+                               "How wide strokes are: a width, times what each is and where it is."};
+    static constexpr const char* gives = Strokes::kind;
+    using Params = WeightParams;
+
+    static void check(const Params& p, Check& c) {
+        for (const auto& [kind, factor] : p.by_kind.entries)
+            if (!kind_of_word(kind))
+                c.error("by_kind", fmt::format("there is no kind {}", in_quotes(kind)),
+                        did_you_mean(kind, kind_words()));
+        if (p.by_depth && p.by_depth->range[0] > p.by_depth->range[1])
+            c.error("by_depth",
+                    fmt::format("'range' is from {} down to {}", p.by_depth->range[0], p.by_depth->range[1]));
+    }
+
+    explicit Weight(Params p) : params(std::move(p)) {}
+
+    Stream expand(Builder& builder) const {
+        const Stream in = builder.input(params.in);
+        const Stream samples = params.map
+                                   ? add_operation(builder, SampleBeside{}, {builder.input(*params.map), in})
+                                   : add_operation(builder, NoSamples{}, {});
+        return add_operation(builder, Weigh(params), {in, samples});
+    }
+
+    const Params params;
+
+private:
+    static std::vector<std::string> kind_words() {
+        std::vector<std::string> out;
+        for (const auto& w : words(StrokeKind{})) out.emplace_back(w.word);
+        return out;
+    }
+    static std::optional<StrokeKind> kind_of_word(std::string_view word) {
+        for (const auto& w : words(StrokeKind{}))
+            if (w.word == word) return w.value;
+        return {};
     }
 };
 

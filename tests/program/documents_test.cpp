@@ -100,6 +100,15 @@ TEST_F(Documents, TheCookbooksCommandsWork) {
     expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "cookbook.md"));
 }
 
+// Its graph finds the lines that its commands then measure.
+TEST_F(Documents, TheGraphAndCommandsOfThePageOnLinesWork) {
+    const std::string page = read(fs::path(KEYLINE_DOCS) / "lines.md");
+    for (const Block& block : blocks_in(page))
+        if (block.language == "json") write("graphs/lines.json", block.text);
+    expect_that_commands_work(page);
+    EXPECT_TRUE(exists("out/missed.json"));
+}
+
 TEST_F(Documents, TheManualsCommandsWork) {
     expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "graphs.md"));
 }

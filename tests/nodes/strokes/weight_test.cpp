@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/strokes.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 
 namespace keyline::testing {
@@ -135,6 +136,47 @@ TEST(Weight, TellsOfKindsThatThereAreNot) {
         FAIL();
     } catch (const Failure& f) {
         EXPECT_THAT(f.error().what, HasSubstr("there is no kind 'creese'; did you mean 'crease'?"));
+    }
+}
+
+// Light on the lower half, from y = 30 on; the picture is 50 high.
+Image half_lit() {
+    return Image({0, 0, 60, 50}, {"Y"}).fill("Y", [](int, int y) { return y < 30 ? 0 : 1; });
+}
+
+std::vector<double> widths_by_map(const Stroke& s, const Image& map, Json params = {},
+                                  const RunOptions& options = {}) {
+    params.set("width", 2).set("units", "px").set("smooth", 0).set("map", "map");
+    return widths(run_on_strokes("weight", params, strokes_in({0, 0, 60, 50}, {s}), options, {{"map", map}})
+                      .strokes.at(0));
+}
+
+TEST(Weight, FollowsAMapBesideTheLineOnWhatItBelongsTo) {
+    const Json factors{{"by_map", Json::array({1.5, 0.5})}};
+    const Stroke right = stroke({{10, 29}, {20, 29}, {30, 29}}),
+                 left = stroke({{30, 31}, {20, 31}, {10, 31}});
+    EXPECT_THAT(widths_by_map(right, half_lit(), factors), ::testing::Each(1)) << "what is below it is lit";
+    EXPECT_THAT(widths_by_map(left, half_lit(), factors), ::testing::Each(3));
+    EXPECT_THAT(widths_by_map(right, half_lit()), ::testing::Each(2)) << "as the map is";
+    EXPECT_THAT(widths_by_map(stroke({{50, 10}, {50, 20}, {50, 40}, {50, 45}}), half_lit(), factors),
+                ::testing::ElementsAre(3, 3, 1, 1));
+}
+
+TEST(Weight, OutsideItsPictureAMapIsZeroAndNanChangesNothing) {
+    const Json factors{{"by_map", Json::array({1.5, 0.5})}};
+    EXPECT_THAT(widths_by_map(stroke({{10, 49}, {20, 49}}), half_lit(), factors), ::testing::Each(3));
+    const Image nan = Image({0, 0, 60, 50}, {"Y"}).fill("Y", [](int, int) { return std::nan(""); });
+    EXPECT_THAT(widths_by_map(stroke({{10, 20}, {20, 20}}), nan, factors), ::testing::Each(2));
+}
+
+TEST(Weight, AMapIsReadTheSameForAllTilesAndThreads) {
+    const Image map =
+        Image({0, 0, 60, 50}, {"Y"}).fill("Y", [](int x, int y) { return (x * 7 + y * 13) % 29 / 29.0; });
+    for (unsigned seed = 1; seed < 4; ++seed) {
+        const Strokes in = random_strokes(seed, {0, 0, 60, 50});
+        const Json params{{"map", "map"}};
+        const Strokes once = run_on_strokes("weight", params, in, {1, 0}, {{"map", map}});
+        EXPECT_EQ(run_on_strokes("weight", params, in, {2, 7}, {{"map", map}}), once);
     }
 }
 

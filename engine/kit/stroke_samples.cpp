@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/stroke_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace keyline {
+
+namespace {
+
+constexpr double kBeside = 2.5;  // pixels
+
+struct Pixel {
+    int x = 0, y = 0;
+};
+
+// On the right of the way from the vertex before to the one after.
+Pixel beside(const Stroke& s, std::size_t i) {
+    const std::vector<StrokeVertex>& v = s.vertices;
+    const std::size_t last = v.size() - 1;
+    const StrokeVertex& before = v[i > 0 ? i - 1 : s.closed ? last : 0];
+    const StrokeVertex& after = v[i < last ? i + 1 : s.closed ? 0 : last];
+    const double x = after.x - before.x, y = after.y - before.y, length = std::sqrt(x * x + y * y);
+    const double aside = length > 0 ? kBeside / length : 0;
+    return {static_cast<int>(std::floor(v[i].x - aside * y)),
+            static_cast<int>(std::floor(v[i].y + aside * x))};
+}
+
+}  // namespace
+
+SampleBeside::Partial SampleBeside::map(const State&, const Inputs& in, const Rect& block, Scratch&) {
+    const View& image = in.slot(0)[0];
+    const std::vector<Stroke>& strokes = in.datum<Strokes>(1).strokes;
+    Partial out;
+    for (std::size_t s = 0; s < strokes.size(); ++s)
+        for (std::size_t i = 0; i < strokes[s].vertices.size(); ++i) {
+            const Pixel at = beside(strokes[s], i);
+            if (block.contains(at.x, at.y))
+                out.push_back({static_cast<uint32_t>(s), static_cast<uint32_t>(i), *image.at(at.x, at.y)});
+        }
+    return out;
+}
+
+StrokeSamples SampleBeside::finish(State state) {
+    std::ranges::sort(state, {}, [](const StrokeSample& s) { return std::tuple(s.stroke, s.vertex); });
+    return {std::move(state)};
+}
+
+}  // namespace keyline

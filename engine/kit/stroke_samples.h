@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "engine/base/api.h"
+#include "engine/kit/strokes.h"
+#include "engine/node/node_adaptor.h"
+
+#include <cstdint>
+#include <vector>
+
+// What an image is beside strokes, on the side of what they belong to: on the line itself samples are mixed
+// of both sides.
+
+namespace KEYLINE_API keyline {
+
+struct StrokeSample {
+    uint32_t stroke = 0, vertex = 0;
+    float value = 0;
+    friend bool operator==(const StrokeSample&, const StrokeSample&) = default;
+};
+
+// In the order of strokes and vertices; where the image has ended it is 0, and there is no sample.
+struct StrokeSamples {
+    static constexpr const char* kind = "samples beside strokes";
+
+    std::vector<StrokeSample> samples;
+    std::size_t bytes() const { return samples.size() * sizeof(StrokeSample); }
+    friend bool operator==(const StrokeSamples&, const StrokeSamples&) = default;
+};
+
+// The operation that makes them of an image.
+struct SampleBeside {
+    struct Params {
+        Input image, strokes;
+        static constexpr auto fields = declare(input(&Params::image, "image", "", matte()),
+                                               input(&Params::strokes, "strokes", "", data<Strokes>()));
+    };
+    using State = std::vector<StrokeSample>;
+    using Partial = std::vector<StrokeSample>;
+
+    static State start(const Rect&) { return {}; }
+    static Partial map(const State&, const Inputs& in, const Rect& block, Scratch&);
+    static void fold(State& state, Partial&& found) { state.insert(state.end(), found.begin(), found.end()); }
+    static StrokeSamples finish(State state);
+
+    static constexpr std::size_t kUsual = kUsualStrokes / sizeof(StrokeVertex) * sizeof(StrokeSample);
+    static std::size_t state_bytes(const Rect&) { return kUsual; }
+    static std::size_t partial_bytes(const Rect&) { return kUsual; }
+    static std::size_t datum_bytes(const Rect&) { return kUsual; }
+};
+
+}  // namespace keyline
