@@ -22,12 +22,28 @@ namespace keyline {
 
 namespace ocio = OCIO_NAMESPACE;
 
+namespace {
+
+// OpenColorIO's default but for its approximate log, exp and pow, which builds with SSE use and others do
+// not.  (Its faster inverse of look-up tables stays: every program that shows these colours has it.)
+constexpr auto kOptimization =
+    static_cast<ocio::OptimizationFlags>(ocio::OPTIMIZATION_DEFAULT & ~ocio::OPTIMIZATION_FAST_LOG_EXP_POW);
+
+}  // namespace
+
 struct ColorTransform::Impl {
     ocio::ConstCPUProcessorRcPtr processor;
 };
 
 struct ColorConfig::Impl {
     ocio::ConstConfigRcPtr config;
+
+    // Null for a transform that changes nothing.  Throws OpenColorIO's exceptions.
+    std::shared_ptr<const ColorTransform::Impl> processed(const ocio::ConstTransformRcPtr& transform) const {
+        auto processor = config->getProcessor(transform)->getOptimizedCPUProcessor(kOptimization);
+        if (processor->isNoOp()) return nullptr;
+        return std::make_shared<const ColorTransform::Impl>(ColorTransform::Impl{std::move(processor)});
+    }
 
     std::shared_ptr<const ColorTransform::Impl> prepare(const ocio::ConstTransformRcPtr& transform,
                                                         const std::string& what) const;
@@ -37,11 +53,6 @@ namespace {
 
 // Pixels that go through OpenColorIO at once: small enough for the stack and the first cache.
 constexpr std::size_t kBatch = 256;
-
-// OpenColorIO's default but for its approximate log, exp and pow, which builds with SSE use and others do
-// not.  (Its faster inverse of look-up tables stays: every program that shows these colours has it.)
-constexpr auto kOptimization =
-    static_cast<ocio::OptimizationFlags>(ocio::OPTIMIZATION_DEFAULT & ~ocio::OPTIMIZATION_FAST_LOG_EXP_POW);
 
 enum class Alpha { kStraight, kPremultiplied };
 
@@ -175,15 +186,31 @@ std::vector<std::string> space_names(const ocio::Config& config) {
     return names;
 }
 
+ocio::TransformDirection direction_of(bool inverse) {
+    return inverse ? ocio::TRANSFORM_DIR_INVERSE : ocio::TRANSFORM_DIR_FORWARD;
+}
+
+// The names in "+grade, -warm | grade"; of alternatives, which OpenColorIO tries in order, each.
+std::vector<std::string> split_looks(const std::string& looks) {
+    std::vector<std::string> out;
+    for (std::size_t begin = 0; begin < looks.size();) {
+        const std::size_t end = std::min(looks.find_first_of(",:|", begin), looks.size());
+        std::string name = looks.substr(begin, end - begin);
+        name.erase(0, std::min(name.find_first_not_of(" +-"), name.size()));
+        name.erase(name.find_last_not_of(' ') + 1);
+        if (!name.empty()) out.push_back(std::move(name));
+        begin = end + 1;
+    }
+    return out;
+}
+
 }  // namespace
 
-// Null for a transform that changes nothing.  Throws Failure (kInput), as when a look-up table is not there.
+// The same.  Throws Failure (kInput), as when a look-up table is not there.
 std::shared_ptr<const ColorTransform::Impl> ColorConfig::Impl::prepare(
     const ocio::ConstTransformRcPtr& transform, const std::string& what) const {
     try {
-        auto processor = config->getProcessor(transform)->getOptimizedCPUProcessor(kOptimization);
-        if (processor->isNoOp()) return nullptr;
-        return std::make_shared<const ColorTransform::Impl>(ColorTransform::Impl{std::move(processor)});
+        return processed(transform);
     } catch (const ocio::Exception& e) {
         fail(ErrorKind::kInput, fmt::format("can't prepare the conversion from {}: {}", what, told_by(e)));
     }
@@ -251,6 +278,51 @@ ColorTransform ColorConfig::display(const std::string& from, const std::string& 
                                               in_quotes(chosen_view), in_quotes(chosen_display), name_)));
 }
 
+ColorTransform ColorConfig::look(const std::string& space, const std::string& looks, bool inverse) const {
+    require_space(space);
+    require_looks(looks);
+    auto transform = ocio::LookTransform::Create();
+    transform->setSrc(space.c_str());
+    transform->setDst(space.c_str());
+    transform->setLooks(looks.c_str());
+    transform->setDirection(direction_of(inverse));
+    return ColorTransform(impl_->prepare(
+        transform, fmt::format("{} to look {} in {}", in_quotes(space), in_quotes(looks), name_)));
+}
+
+ColorTransform ColorConfig::file(const std::filesystem::path& file, const std::string& id,
+                                 bool inverse) const {
+    std::error_code unknown;  // where it can't be looked at, reading it says why
+    if (!std::filesystem::exists(file, unknown) && !unknown)
+        fail(ErrorKind::kInput, fmt::format("{}: no such file", file.string()));
+    auto transform = ocio::FileTransform::Create();
+    transform->setSrc(std::filesystem::absolute(file).c_str());
+    transform->setCCCId(id.empty() ? "0" : id.c_str());
+    transform->setInterpolation(ocio::INTERP_BEST);
+    transform->setDirection(direction_of(inverse));
+    try {
+        return ColorTransform(impl_->processed(transform));
+    } catch (const ocio::Exception& e) {
+        const std::string text = told_by(e);
+        const std::string_view opening = "with this error: ";
+        const std::size_t at = text.find(opening);
+        fail(ErrorKind::kInput,
+             fmt::format("can't use {}: {}", quoted(file),
+                         at == std::string::npos ? text : text.substr(at + opening.size())));
+    }
+}
+
+ColorTransform ColorConfig::decide(const Decision& decision, bool inverse) const {
+    auto transform = ocio::CDLTransform::Create();
+    transform->setStyle(ocio::CDL_NO_CLAMP);
+    transform->setSlope(decision.slope.data());
+    transform->setOffset(decision.offset.data());
+    transform->setPower(decision.power.data());
+    transform->setSat(decision.saturation);
+    transform->setDirection(direction_of(inverse));
+    return ColorTransform(impl_->prepare(transform, "a colour decision"));
+}
+
 Digest ColorConfig::digest() const { return Digester("colours").add(impl_->config->getCacheID()).digest(); }
 
 void ColorConfig::require_space(const std::string& space) const {
@@ -261,6 +333,20 @@ void ColorConfig::require_space(const std::string& space) const {
         fmt::format("there is no colour space {} in {}; it has {}{}", in_quotes(space), name_,
                     listed(color_spaces()), known_roles.empty() ? "" : "; roles " + listed(known_roles)),
         did_you_mean(space, space_names(*impl_->config)));
+}
+
+void ColorConfig::require_looks(const std::string& looks) const {
+    std::vector<std::string> known;
+    for (int i = 0; i < impl_->config->getNumLooks(); ++i)
+        known.emplace_back(impl_->config->getLookNameByIndex(i));
+    for (const std::string& look : split_looks(looks)) {
+        if (impl_->config->getLook(look.c_str())) continue;
+        throw BadValue(looks,
+                       known.empty() ? fmt::format("there are no looks in {}", name_)
+                                     : fmt::format("there is no look {} in {}; it has {}", in_quotes(look),
+                                                   name_, listed(known)),
+                       did_you_mean(look, known));
+    }
 }
 
 std::string ColorConfig::found_display(const std::string& display) const {

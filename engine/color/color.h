@@ -5,6 +5,7 @@
 #include "engine/base/api.h"
 #include "engine/base/digest.h"
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -74,6 +75,23 @@ public:
     ColorTransform display(const std::string& from, const std::string& display,
                            const std::string& view) const;
 
+    // What the config calls a look, in a space: "grade", or several as "+grade, -warm".  Throws as convert()
+    // does.
+    ColorTransform look(const std::string& space, const std::string& looks, bool inverse) const;
+
+    // What a file says, of any kind that OpenColorIO reads: look-up tables (.cube .spi1d .spi3d .csp .3dl
+    // .clf …) and colour decisions (.cc .ccc .cdl; `id` is the correction's, empty: the first).  A file is
+    // read once for the whole process.  Throws Failure (kInput).
+    ColorTransform file(const std::filesystem::path& file, const std::string& id, bool inverse) const;
+
+    // The American Society of Cinematographers' colour decision list: (in × slope + offset) ^ power, then
+    // the saturation, by Rec. 709's weights.  Nothing is clipped but what has no power: below 0 it stays.
+    struct Decision {
+        std::array<double, 3> slope{1, 1, 1}, offset{}, power{1, 1, 1};
+        double saturation = 1;
+    };
+    ColorTransform decide(const Decision& decision, bool inverse) const;
+
     std::vector<std::string> color_spaces() const;  // active ones, in the config's order, without roles
     std::vector<std::string> displays() const;
     std::vector<std::string> views(const std::string& display) const;  // empty for an unknown display
@@ -90,6 +108,7 @@ private:
         : name_(std::move(name)), impl_(std::move(impl)) {}
 
     void require_space(const std::string& space) const;
+    void require_looks(const std::string& looks) const;
     std::string found_display(const std::string& display) const;
     std::string found_view(const std::string& display, const std::string& view) const;
 

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/color_operation.h"
+#include "engine/node/node_adaptor.h"
+
+namespace keyline {
+
+namespace {
+
+struct Look {
+    static constexpr Info info{"look", "Gives R G B a look of the OpenColorIO config; other channels pass."};
+
+    struct Params {
+        Input in;
+        std::string look;
+        std::string space = "scene_linear";
+        bool inverse = false;
+
+        static constexpr auto fields = declare(
+            input(&Params::in, "in", "The image.", colour()),
+            field(&Params::look, "look", "The look's name; several as \"+grade, -warm\"; empty for none."),
+            field(&Params::space, "space", "The space, or role, that the image is in and stays in."),
+            field(&Params::inverse, "inverse", "Whether to take the look back."));
+    };
+
+    explicit Look(const Params& p) : params(p) {}
+
+    Stream expand(Builder& builder) const {
+        return convert_colour(builder, builder.input(params.in),
+                              builder.colors().look(params.space, params.look, params.inverse));
+    }
+
+    const Params params;
+};
+
+}  // namespace
+
+KEYLINE_NODE(look, Look)
+
+}  // namespace keyline
