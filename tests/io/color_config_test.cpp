@@ -4,6 +4,7 @@
 #include "engine/color/color.h"
 #include "tests/support/failure.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -48,12 +49,49 @@ colorspaces:
 
 TEST(BuiltinColorConfig, HasTheSpacesDisplaysAndViewsThatItPromises) {
     const auto config = ColorConfig::builtin();
-    EXPECT_THAT(config->color_spaces(), ElementsAre("sRGB - Display", "Linear Rec.709 (sRGB)", "ACEScg",
-                                                    "ACES2065-1", "sRGB - Texture", "Raw"));
-    EXPECT_THAT(config->displays(), ElementsAre("sRGB - Display"));
+    EXPECT_THAT(config->color_spaces(),
+                ElementsAre("sRGB - Display", "Rec.1886 Rec.709 - Display", "P3-D65 - Display",
+                            "Linear Rec.709 (sRGB)", "ACEScg", "ACES2065-1", "sRGB - Texture",
+                            "Gamma 2.2 Rec.709 - Texture", "Gamma 2.4 Rec.709 - Texture", "ACEScct", "ACEScc",
+                            "Raw"));
+    EXPECT_THAT(config->displays(),
+                ElementsAre("sRGB - Display", "Rec.1886 Rec.709 - Display", "P3-D65 - Display"));
     EXPECT_THAT(config->views("sRGB - Display"),
                 ElementsAre("ACES 1.0 - SDR Video", "Un-tone-mapped", "Raw"));
     EXPECT_TRUE(config->views("nothing").empty());
+}
+
+float converted(const std::string& from, const std::string& to, float grey) {
+    float r = grey, g = grey, b = grey;
+    ColorConfig::builtin()->convert(from, to).apply(&r, &g, &b, nullptr, 1);
+    EXPECT_NEAR(r, g, 1e-5F);
+    EXPECT_NEAR(b, g, 1e-5F);
+    return g;
+}
+
+// Figures of the specifications: S-2016-001 for ACEScct, S-2014-003 for ACEScc.
+TEST(BuiltinColorConfig, SpacesAreWhatTheyAreCalled) {
+    EXPECT_NEAR(converted("scene_linear", "ACEScct", 0.18F), 0.4135884, 1e-5);
+    EXPECT_NEAR(converted("scene_linear", "ACEScct", 0), 0.0729055, 1e-5);
+    EXPECT_NEAR(converted("scene_linear", "ACEScc", 1), 0.5547945, 1e-5);
+    EXPECT_NEAR(converted("Gamma 2.2 Rec.709 - Texture", "scene_linear", 0.5F), 0.2176376, 1e-5);
+    EXPECT_NEAR(converted("Gamma 2.4 Rec.709 - Texture", "scene_linear", 0.5F), 0.1894646, 1e-5);
+    for (const auto& [display, gamma] :
+         {std::pair("Rec.1886 Rec.709 - Display", 2.4), std::pair("P3-D65 - Display", 2.6)}) {
+        float r = 0.18F, g = 0.18F, b = 0.18F;
+        ColorConfig::builtin()
+            ->display("scene_linear", display, "Un-tone-mapped")
+            .apply(&r, &g, &b, nullptr, 1);
+        EXPECT_NEAR(double{g}, std::pow(0.18, 1 / gamma), 1e-4) << display;
+    }
+}
+
+TEST(BuiltinColorConfig, NamesThatPeopleKnowStandForThem) {
+    for (const auto& [name, space] :
+         {std::pair("linear", "Linear Rec.709 (sRGB)"), std::pair("sRGB", "sRGB - Texture"),
+          std::pair("srgb_tx", "sRGB - Texture"), std::pair("lin_ap1", "ACEScg"),
+          std::pair("ACES - ACES2065-1", "ACES2065-1"), std::pair("Utility - Raw", "Raw")})
+        EXPECT_TRUE(ColorConfig::builtin()->convert(name, space).identity()) << name;
 }
 
 TEST(BuiltinColorConfig, AnUnknownSpaceListsThoseThereAre) {
@@ -62,8 +100,9 @@ TEST(BuiltinColorConfig, AnUnknownSpaceListsThoseThereAre) {
     EXPECT_EQ(e.kind, ErrorKind::kGraph);
     EXPECT_EQ(e.what,
               "there is no colour space 'ACESgc' in the built-in OCIO config; it has 'sRGB - Display', "
-              "'Linear Rec.709 (sRGB)', 'ACEScg', 'ACES2065-1', 'sRGB - Texture' and 'Raw'; roles 'data' and "
-              "'scene_linear'");
+              "'Rec.1886 Rec.709 - Display', 'P3-D65 - Display', 'Linear Rec.709 (sRGB)', 'ACEScg', "
+              "'ACES2065-1', 'sRGB - Texture', 'Gamma 2.2 Rec.709 - Texture', 'Gamma 2.4 Rec.709 - Texture', "
+              "'ACEScct', 'ACEScc' and 'Raw'; roles 'data' and 'scene_linear'");
     EXPECT_EQ(e.hint, "did you mean 'ACEScg'?");
     EXPECT_EQ(error_of([&] { config->convert("", "ACEScg"); }).kind, ErrorKind::kGraph);
     EXPECT_EQ(error_of([&] { config->display("scene-linear", "", ""); }).hint,
@@ -75,7 +114,8 @@ TEST(BuiltinColorConfig, AnUnknownDisplayOrViewListsThoseThereAre) {
     const Error display = error_of([&] { config->display("ACEScg", "sRGB Display", ""); });
     EXPECT_EQ(display.kind, ErrorKind::kGraph);
     EXPECT_EQ(display.what,
-              "there is no display 'sRGB Display' in the built-in OCIO config; it has 'sRGB - Display'");
+              "there is no display 'sRGB Display' in the built-in OCIO config; it has 'sRGB - Display', "
+              "'Rec.1886 Rec.709 - Display' and 'P3-D65 - Display'");
     EXPECT_EQ(display.hint, "did you mean 'sRGB - Display'?");
     const Error view = error_of([&] { config->display("ACEScg", "", "Filmic"); });
     EXPECT_EQ(view.kind, ErrorKind::kGraph);
