@@ -57,7 +57,8 @@ for graph in garden poster; do
     --var out="$PWD/$images/$graph.png"
 done
 for hand in cleanup brush pencil technical comic; do
-  build/release/bin/keyline render "graphs/$hand.json" --frames 12 --progress none --var out="$PWD/$images/$hand.webp"
+  build/release/bin/keyline render "graphs/$hand.json" --frames 12 --progress none --no-provenance \
+    --var out="$PWD/$images/$hand.webp"
 done
 render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
 

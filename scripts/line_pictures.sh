@@ -69,9 +69,9 @@ garden smooth-abstract 800 570 --set calm.abstract=5
 garden weight-even 415 425 --set 'wide.by_depth={"reference":7,"power":0}' --set 'wide.by_kind={}' --set wide.width=4
 garden weight-kinds 415 425
 garden weight-light 415 425 --set wide.map=sunny --set 'wide.by_map=[1.6,0.5]'
-garden taper-none 445 435 --set tipped.start=0 --set tipped.end=0
-garden taper-tips 445 435 --set tipped.start=20 --set tipped.end=30 --set 'tipped.at=["end","occluded"]'
-garden taper-past 445 435 --set tipped.start=0 --set tipped.end=0 --set tipped.overshoot=10
+garden taper-none 850 560 --set tipped.start=0 --set tipped.end=0
+garden taper-tips 850 560 --set tipped.start=20 --set tipped.end=30
+garden taper-past 850 560 --set tipped.start=0 --set tipped.end=0 --set tipped.overshoot=10
 render graphs/pencil.json --var out="$scratch/whole.png" --set first.amount=0 --set second.amount=0
 piece wobble-none 830 420
 render graphs/pencil.json --var out="$scratch/whole.png"

@@ -136,7 +136,8 @@ struct LinkPoints {
     }
 
     const Style style;
-    const bool directed;
+    const bool edges;     // which have a right: that of their larger values
+    const bool directed;  // whether each point knows which that is
 
 private:
     static MapPoint place(const LinePoint& p) { return {p.x + 0.5 + double{p.dx}, p.y + 0.5 + double{p.dy}}; }
@@ -175,9 +176,10 @@ private:
         }
     }
 
-    // An edge has its larger values on the right; a ridge, which has no right, begins at its upper end.
+    // An edge has its larger values on the right, by the vote of its points; a ridge, which has no right,
+    // begins at its upper end.
     bool is_backwards(const PointChain& chain, const std::vector<MapPoint>& places) const {
-        if (!directed)
+        if (!edges)
             return std::pair(places.back().y, places.back().x) <
                    std::pair(places.front().y, places.front().x);
         double along = 0;
@@ -244,7 +246,7 @@ struct Trace {
         static constexpr auto fields = declare(
             input(&Params::in, "in",
                   "One channel; for edges also the dx, dy and magnitude of gradient, which are taken as they "
-                  "are."),
+                  "are; either sign of them, as that of several channels has none."),
             field(&Params::mode, "mode", "What lines run along."),
             field(&Params::sigma, "sigma",
                   "Standard deviation of the blur under which one channel is looked at.",
@@ -313,8 +315,9 @@ struct Trace {
         const Stream there = params.except
                                  ? add_operation(builder, FindLinesThere{}, {builder.input(*params.except)})
                                  : add_operation(builder, NoLinesThere{}, {});
-        return add_operation(builder, LinkPoints{style, params.mode == Mode::kEdge},
-                             {found(builder, find, in, links), there});
+        return add_operation(
+            builder, LinkPoints{style, params.mode == Mode::kEdge, params.mode == Mode::kEdge && !gradient},
+            {found(builder, find, in, links), there});
     }
 
     const Params params;

@@ -104,6 +104,23 @@ TEST(Trace, TakesAGradientAsItIs) {
     EXPECT_LT(rms(strokes, line), 0.05);
 }
 
+// The slope of several channels at once has no side that is higher: either sign of it is as good.
+TEST(Trace, AGradientOfSeveralChannelsMakesOneLine) {
+    const Image slope = Image(Rect{0, 0, kSize, kSize}, {"dx", "dy", "magnitude"})
+                            .fill("dx",
+                                  [](int x, int y) {
+                                      const double far = x - 20.3 - 0.1 * y;
+                                      return (y / 3 % 2 == 0 ? 1 : -1) * std::exp(-far * far / 4);
+                                  })
+                            .fill("magnitude", [](int x, int y) {
+                                const double far = x - 20.3 - 0.1 * y;
+                                return std::exp(-far * far / 4);
+                            });
+    const Strokes strokes = trace(slope, {{"low", 0.1}, {"high", 0.5}});
+    ASSERT_EQ(strokes.strokes.size(), 1U);
+    EXPECT_NEAR(length_of(strokes.strokes[0]), 46, 2);
+}
+
 TEST(Trace, RidgesAndValleysAreOnTheCrest) {
     for (const double degrees : {0.0, 20.0, 45.0, 80.0}) {
         const Field line = across(degrees);
