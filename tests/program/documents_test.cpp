@@ -3,6 +3,7 @@
 #include "tests/program/program.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 // The commands that the documents show, run on what is shipped, and the examples of the manual.
@@ -107,6 +108,18 @@ TEST_F(Documents, TheGraphAndCommandsOfThePageOnLinesWork) {
         if (block.language == "json") write("graphs/lines.json", block.text);
     expect_that_commands_work(page);
     EXPECT_TRUE(exists("out/missed.json"));
+
+    // As good as the page says, against the lines of the meshes.
+    const Outcome run =
+        keyline({"measure", "out/lines.0012.json", "graphs/plates/garden_lines.0012.json", "--json"});
+    const auto told = nlohmann::json::parse(run.out);
+    EXPECT_GT(told["accuracy"]["precision"], 0.95);
+    EXPECT_GT(told["accuracy"]["recall"], 0.77);
+    EXPECT_EQ(told["accuracy"]["drawn"][0]["kind"], "outline");
+    EXPECT_LT(told["accuracy"]["drawn"][0]["rms"], 0.09);
+    EXPECT_LT(told["accuracy"]["drawn"][0]["robust"], 0.04);
+    EXPECT_LT(told["form"]["doubles"], 0.01);
+    EXPECT_LT(told["form"]["ripple"], 0.05);
 }
 
 TEST_F(Documents, TheManualsCommandsWork) {
