@@ -24,5 +24,7 @@ void add_provenance(CLI::App& program, Chosen& chosen);
 void add_measure(CLI::App& program, Chosen& chosen);
 void add_info(CLI::App& program, Chosen& chosen);
 void add_diff(CLI::App& program, Chosen& chosen);
+void add_view(CLI::App& program, Chosen& chosen);
+void add_draw(CLI::App& program, Chosen& chosen);
 
 }  // namespace keyline::cli

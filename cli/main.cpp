@@ -157,10 +157,13 @@ int run(int argc, char** argv) {
     add_schema(program, chosen);
     add_info(program, chosen);
     add_diff(program, chosen);
+    add_view(program, chosen);
+    add_draw(program, chosen);
     add_measure(program, chosen);
     add_verify(program, chosen);
     add_provenance(program, chosen);
     add_submit(program, chosen);
+    program.require_subcommand(0, 1);  // what follows may be a node that is called as a command is
     allow_extras(program);
 
     std::optional<int> done;

@@ -83,6 +83,7 @@ LoadOptions read_load_options(const GraphArguments& a, OptionReader& reader, Dia
     out.outputs = reader.assignments("--output", a.output, "NODE=FILE or NODE:NAME=FILE");
     out.output_type = "write";
     out.only = a.only;
+    out.added = a.added;
     out.root = a.root;
     if (!a.path_map.empty()) out.path_map = read_path_map(a.path_map, diagnostics);
     return out;
@@ -219,6 +220,12 @@ LoadedGraph load_graph(const GraphArguments& arguments, Diagnostics& diagnostics
     if (out.graph) check_what_is_sound(*out.graph, frame_to_check(out), out.options, diagnostics);
     out.graph.reset();
     return out;
+}
+
+std::unique_ptr<const Graph> load_quietly(const GraphArguments& arguments) {
+    Diagnostics unheard;
+    OptionReader reader(unheard);
+    return Graph::load_what_is_sound(arguments.graph, read_load_options(arguments, reader, unheard), unheard);
 }
 
 std::size_t parse_size(const std::string& text) {

@@ -20,6 +20,7 @@ struct GraphArguments {
     std::string frames, root, ocio, path_map;
     std::vector<std::string> set, var, vars, only, output;
     std::string threads, tile, memory;
+    std::string added;  // nodes of the command's own making (LoadOptions)
 };
 
 // The graph, and which of its nodes and frames with which values.
@@ -44,6 +45,9 @@ struct LoadedGraph {
 
 // Reads the options and the graph; whatever is wrong with either is told.
 LoadedGraph load_graph(const GraphArguments& arguments, Diagnostics& diagnostics);
+
+// What is sound of the graph, whatever else is wrong; null where not even nodes were found.  Tells nothing.
+std::unique_ptr<const Graph> load_quietly(const GraphArguments& arguments);
 
 // As a shell takes it for one word.
 std::string shell_word(const std::string& text);

@@ -33,6 +33,7 @@ struct LoadOptions {
     std::vector<std::string> vars;     // files of variables
     std::vector<OptionValue> outputs;  // NODE[:NAME] = FILE; where given, these are written and nothing else
     std::string output_type;           // the sink that `outputs` are made with
+    std::string added;                 // further nodes, as JSON: `{ "id": { … } }`; empty: none
     std::vector<std::string> only;     // just these sinks
     std::optional<int> frame;          // to check with; else the first of the graph's, or on disk
     std::filesystem::path root;        // what relative paths are relative to; empty: the graph's folder

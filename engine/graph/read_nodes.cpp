@@ -7,6 +7,7 @@
 #include "engine/graph/expand_groups.h"
 #include "engine/graph/graph_error.h"
 #include "engine/graph/variable_files.h"
+#include "engine/json/json_reader.h"
 #include "engine/node/registry.h"
 #include "engine/params/frames.h"
 
@@ -113,6 +114,12 @@ public:
         for (const Member& m : nodes.members) read_one(m);
     }
 
+    // Of the program's own making, under ids that no file can have.
+    void add(const Value& nodes) {
+        for (const Member& m : nodes.members)
+            read_.nodes.push_back({m.key, nullptr, m.key_place, m.value, std::nullopt, read_.scope});
+    }
+
     // Takes `type` and `about` out of each object and looks the type up.
     void resolve_types() {
         for (GraphNode& node : read_.nodes)
@@ -186,6 +193,7 @@ std::optional<ReadGraph> read_nodes(const Value& root, const LoadOptions& option
     if (const Value* nodes = root.find("nodes")) reader.read_all(*nodes);
     expand_groups(options, scope, read, diagnostics);
     apply_set_options(options_for_nodes(options.set, read.groups), read.nodes, diagnostics);
+    if (!options.added.empty()) reader.add(parse_json(options.added, "added nodes"));
     add_outputs(options, scope, read.nodes);
     reader.resolve_types();
     return read;

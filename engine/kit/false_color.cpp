@@ -24,4 +24,15 @@ std::array<float, 3> heat(float number) {
     return out;
 }
 
+std::array<float, 3> colour_of_id(uint32_t id) {
+    if (id == 0) return {};
+    uint32_t hash = id * 0x9e3779b1U;  // neighbours in number are no neighbours in colour
+    hash = (hash ^ hash >> 15U) * 0x85ebca6bU;
+    hash ^= hash >> 13U;
+    std::array<float, 3> out;
+    for (std::size_t c = 0; c < 3; ++c)
+        out[c] = 0.25F + 0.7F * static_cast<float>(hash >> (8 * c) & 255U) / 255;
+    return out;
+}
+
 }  // namespace keyline

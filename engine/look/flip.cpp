@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/look/flip.h"
 
+#include "engine/base/index.h"
 #include "engine/simd/elementary.h"
 
 #include <algorithm>
@@ -68,6 +69,7 @@ double hyab(const Vec& a, const Vec& b) {
 struct Kernel {
     std::vector<double> weights;
     int radius() const { return static_cast<int>(weights.size() / 2); }
+    double at(int x) const { return weights[index(x + radius())]; }
 };
 
 Kernel kernel_of(int radius, const std::function<double(double)>& f) {
@@ -91,8 +93,7 @@ std::vector<float> filtered_rows(const std::vector<float>& in, int width, int he
         for (int x = 0; x < width; ++x) {
             double sum = 0;
             for (int i = -radius; i <= radius; ++i)
-                sum += kernel.weights[static_cast<std::size_t>(i + radius)] *
-                       double{row[std::clamp(x + i, 0, width - 1)]};
+                sum += kernel.at(i) * double{row[std::clamp(x + i, 0, width - 1)]};
             out[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
                 static_cast<float>(sum);
         }
@@ -109,7 +110,7 @@ std::vector<float> filtered_columns(const std::vector<float>& in, int width, int
         std::ranges::fill(sums, 0);
         for (int i = -radius; i <= radius; ++i) {
             const float* row = in.data() + std::ptrdiff_t{std::clamp(y + i, 0, height - 1)} * width;
-            const double weight = kernel.weights[static_cast<std::size_t>(i + radius)];
+            const double weight = kernel.at(i);
             for (std::size_t x = 0; x < sums.size(); ++x) sums[x] += weight * double{row[x]};
         }
         std::ranges::transform(sums, out.begin() + std::ptrdiff_t{y} * width,

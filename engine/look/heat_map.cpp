@@ -32,7 +32,7 @@ struct ChunkPlane {
         : samples(static_cast<std::size_t>(rect.area()) * sample_size(type)),
           plane{samples.data(), static_cast<std::ptrdiff_t>(sample_size(type)) * rect.width(), type, rect} {}
 
-    void put(const Row& row, int y) {
+    void put(const Row& row, int y) const {
         if (plane.type == SampleType::kFloat) {
             std::memcpy(plane.at(plane.rect.x0, y), row.data(), row.size() * sizeof(float));
             return;
