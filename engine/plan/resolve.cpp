@@ -343,7 +343,7 @@ public:
     bool leaves_out_identities() const override { return resolver_.options_.leave_out_identities; }
 
     void warn(std::string what) override {
-        warnings_.push_back({ErrorKind::kFailed, {}, title(), std::move(what), {}});
+        warnings_.push_back({ErrorKind::kFailed, node_.place, title(), std::move(what), {}});
     }
 
     void bad_parameter(const char* name, std::string what, std::string hint) override {

@@ -430,7 +430,9 @@ TEST_F(Channels, APaletteTellsWhatItForgets) {
                       (plates() / "street_passes.0024.exr").string()));
     const Outcome run = keyline({"check", "graph.json"});
     EXPECT_EQ(run.status, 0);
-    EXPECT_THAT(run.err, HasSubstr("'values': all that 'post03' matches has an entry before it"));
+    EXPECT_THAT(run.err,
+                HasSubstr("graph.json:3:26: warning: node 'p' (palette): 'values': all that 'post03' matches "
+                          "has an entry before it"));
     EXPECT_THAT(run.err,
                 HasSubstr("none of the 22 objects of the Cryptomatte is 'suzane'; did you mean 'suzanne'?"));
     EXPECT_THAT(run.err, HasSubstr("'values' has nothing for 8 of 22 objects: 'ball', "));
