@@ -45,12 +45,26 @@ bool is_for_display(const Graph& graph, int node) {
     return false;
 }
 
+// Users know nothing of nodes that were added for them.
+Error without_added(Error e) {
+    if (e.place.file == "added nodes") e.place = {}, e.node.clear();
+    return e;
+}
+
 // What goes wrong is told as in a render.
 class Teller final : public RenderObserver {
 public:
-    void warning(const Error& e) override { print_message(e.warning_text()); }
-    void error(const Error& e) override { print_message(e.text()); }
+    void warning(const Error& e) override { print_message(without_added(e).warning_text()); }
+    void error(const Error& e) override { print_message(without_added(e).text()); }
 };
+
+// What may have been meant by the name of no node: a group's is none, those inside of it have one.
+std::string hint_for(const Graph& graph, const std::string& id) {
+    std::vector<std::string> inside;
+    for (const GraphNode& n : graph.nodes())
+        if (n.id.starts_with(id + "/")) inside.push_back(n.id);
+    return inside.empty() ? did_you_mean(id, all_ids(graph)) : "it is a group, of " + listed(inside);
+}
 
 }  // namespace
 
@@ -78,8 +92,7 @@ JsonWriter& PictureNodes::begin(const std::string& id, const char* type) {
 std::string PictureNodes::show(const std::string& node) {
     const std::string id = node.substr(0, node.find(':'));
     const int index = graph_.index_of(id);
-    if (index < 0)
-        fail(ErrorKind::kGraph, "there is no node " + in_quotes(id), did_you_mean(id, all_ids(graph_)));
+    if (index < 0) fail(ErrorKind::kGraph, "there is no node " + in_quotes(id), hint_for(graph_, id));
     const GraphNode& shown = graph_.nodes()[static_cast<std::size_t>(index)];
     if (!can_be_shown(shown))
         fail(ErrorKind::kGraph, fmt::format("{} gives nothing to be seen", shown.title()),

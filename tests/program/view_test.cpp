@@ -96,6 +96,10 @@ TEST_F(View, WhatIsWrongIsTold) {
     EXPECT_THAT(view({"out", "-o", "x.exr"}).err, HasSubstr("gives nothing to be seen"));
     EXPECT_THAT(view({"c", "--range", "1", "-o", "x.exr"}).err,
                 HasSubstr("--range 1: error: it must be auto, or A,B"));
+    const Outcome layer = view({"c:Q", "-o", "x.exr"});
+    EXPECT_EQ(layer.status, 2);
+    EXPECT_THAT(layer.err, StartsWith("error: no layer or channel 'Q'"));
+    EXPECT_THAT(layer.err, Not(HasSubstr("picture/")));
     graph(R"("c": { "type": "constant", "color": [0.2, 0.5, 0], "sise": [32, 16] })");
     const Outcome run = view({"c", "-o", "x.exr"});
     EXPECT_EQ(run.status, 2);
