@@ -8,15 +8,35 @@ namespace keyline {
 
 namespace {
 
+constexpr double kAround = 16;  // pixels around the data window that are looked at
+
+// Which part of the way from `from` by `by` lies between two bounds.
+struct Part {
+    double first = 0, last = 1;
+    void keep(double from, double by, double least, double most) {
+        if (by == 0) {
+            if (from < least || from > most) last = 0;
+            return;
+        }
+        const double a = (least - from) / by, b = (most - from) / by;
+        first = std::max(first, std::min(a, b));
+        last = std::min(last, std::max(a, b));
+    }
+};
+
 void add_piece(std::vector<Spot>& out, const StrokeVertex& a, const StrokeVertex& b, std::size_t stroke,
-               double& arc) {
+               const Rect& window, double& arc) {
     const double dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
     if (!(length > 0)) return;
-    const int count = static_cast<int>(std::ceil(length / kSpotLength));
+    Part part;
+    part.keep(a.x, dx, window.x0 - kAround, window.x1 + kAround);
+    part.keep(a.y, dy, window.y0 - kAround, window.y1 + kAround);
+    const double share = part.last - part.first;
+    const int count = share > 0 ? static_cast<int>(std::ceil(share * length / kSpotLength)) : 0;
     for (int i = 0; i < count; ++i) {
-        const double t = (i + 0.5) / count;
-        out.push_back({a.x + t * dx, a.y + t * dy, dx / length, dy / length, length / count, arc + t * length,
-                       a.width + t * (b.width - a.width), stroke});
+        const double t = part.first + share * (i + 0.5) / count;
+        out.push_back({a.x + t * dx, a.y + t * dy, dx / length, dy / length, share * length / count,
+                       arc + t * length, a.width + t * (b.width - a.width), stroke});
     }
     arc += length;
 }
@@ -29,8 +49,8 @@ std::vector<Spot> spots_of(const Strokes& drawing) {
         const Stroke& stroke = drawing.strokes[s];
         const std::vector<StrokeVertex>& v = stroke.vertices;
         double arc = 0;
-        for (std::size_t i = 1; i < v.size(); ++i) add_piece(out, v[i - 1], v[i], s, arc);
-        if (stroke.closed && v.size() > 1) add_piece(out, v.back(), v.front(), s, arc);
+        for (std::size_t i = 1; i < v.size(); ++i) add_piece(out, v[i - 1], v[i], s, drawing.window, arc);
+        if (stroke.closed && v.size() > 1) add_piece(out, v.back(), v.front(), s, drawing.window, arc);
     }
     return out;
 }

@@ -25,7 +25,7 @@ struct Spot {
 
 inline constexpr double kSpotLength = 0.5;
 
-// In the order of the strokes and along each.
+// In the order of the strokes and along each; of what goes far out of the data window nothing.
 std::vector<Spot> spots_of(const Strokes& drawing);
 
 // How far `p` is from the line through a spot, and from the spot along it.

@@ -120,6 +120,13 @@ TEST(Form, OfACircleIsEvenAndClosed) {
     EXPECT_LE(f.curves, 8U);
 }
 
+TEST(Form, OfWhatGoesFarOutOfThePictureCountsWhatIsNear) {
+    const double far = 1e12;
+    EXPECT_NEAR(form_of(drawing({line(50, 50, far, 50)})).length, 66, 1);
+    EXPECT_NEAR(form_of(drawing({line(-far, 50, far, 50)})).length, 132, 1);
+    EXPECT_EQ(form_of(drawing({line(far, 10, far, 90)})).length, 0);
+}
+
 TEST(Form, CountsEndsThatMeetNothing) {
     const Form f = form_of(drawing({line(10, 10, 90, 10), line(50, 11, 50, 60), line(50, 80, 100, 80)}));
     EXPECT_EQ(f.ends, 6U);
