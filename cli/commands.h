@@ -15,6 +15,7 @@ using Chosen = std::function<int()>;
 void add_render(CLI::App& program, Chosen& chosen);
 void add_check(CLI::App& program, Chosen& chosen);
 void add_plan(CLI::App& program, Chosen& chosen);
+void add_lsp(CLI::App& program, Chosen& chosen);
 void add_fmt(CLI::App& program, Chosen& chosen);
 void add_nodes(CLI::App& program, Chosen& chosen);
 void add_schema(CLI::App& program, Chosen& chosen);

@@ -153,6 +153,7 @@ int run(int argc, char** argv) {
     add_check(program, chosen);
     add_plan(program, chosen);
     add_fmt(program, chosen);
+    add_lsp(program, chosen);
     add_nodes(program, chosen);
     add_schema(program, chosen);
     add_info(program, chosen);

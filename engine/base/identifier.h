@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
+
 #include <algorithm>
 #include <string_view>
 
-namespace keyline {
+namespace KEYLINE_API keyline {
 
 // What the id of a node and the name of a variable look like, in every locale.
 inline constexpr std::string_view kIdentifierPattern = "[A-Za-z_][A-Za-z0-9_-]*";

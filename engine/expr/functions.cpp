@@ -87,10 +87,15 @@ const Function* find(const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> function_names() {
+    std::vector<std::string> out;
+    for (const Function& f : kFunctions) out.emplace_back(f.name);
+    return out;
+}
+
 void check_function(const std::string& name, std::size_t at) {
     if (find(name)) return;
-    std::vector<std::string> known;
-    for (const Function& f : kFunctions) known.emplace_back(f.name);
+    const std::vector<std::string> known = function_names();
     std::string hint = did_you_mean(name, known);
     throw ExpressionFault(at, "there is no function " + in_quotes(name),
                           hint.empty() ? "known are " + listed(known) : hint);

@@ -2,16 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
+
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 // The functions of expressions, from numbers to a number.  `at` is where a fault is told; all throw
 // ExpressionFault.
 
-namespace keyline {
+namespace KEYLINE_API keyline {
 
 inline constexpr double kPi = 3.14159265358979323846;
+
+std::vector<std::string> function_names();
 
 // Whether there is such a function, and whether it takes so many values.
 void check_function(const std::string& name, std::size_t at);

@@ -8,29 +8,12 @@
 #include "engine/graph/group.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <utility>
 
 namespace keyline {
 
 namespace {
-
-// Where a group's file is: beside the file that uses it, else in the folders of $KEYLINE_PATH.
-std::filesystem::path find_file(const std::string& name, const Scope& scope) {
-    std::vector<std::filesystem::path> folders{scope.file.parent_path()};
-    const char* path = std::getenv("KEYLINE_PATH");
-    std::string rest = path ? path : "";
-    while (!rest.empty()) {
-        const std::size_t colon = std::min(rest.find(':'), rest.size());
-        folders.emplace_back(rest.substr(0, colon));
-        rest.erase(0, colon + 1);
-    }
-    std::error_code error;
-    for (const auto& folder : folders)
-        if (std::filesystem::exists(folder / name, error)) return folder / name;
-    return folders.front() / name;
-}
 
 class Expansion {
 public:
@@ -86,7 +69,7 @@ private:
     }
 
     std::shared_ptr<const Group> group_of(const Value& type, const Scope& outer, const GraphNode& node) {
-        const std::filesystem::path file = find_file(type.text, outer);
+        const std::filesystem::path file = group_file(type.text, outer.file.parent_path());
         std::error_code error;
         for (const Scope* scope = &outer; scope; scope = scope->outer.get())
             if (std::filesystem::equivalent(scope->file, file, error)) {

@@ -75,6 +75,12 @@ public:
                                               const std::filesystem::path& folder, const LoadOptions& options,
                                               Diagnostics& diagnostics);
 
+    // load_what_is_sound() from what a text says.
+    static std::unique_ptr<const Graph> of_what_is_sound(const Value& root,
+                                                         const std::filesystem::path& folder,
+                                                         const LoadOptions& options,
+                                                         Diagnostics& diagnostics);
+
     std::span<const GraphNode> nodes() const { return nodes_; }
     int index_of(std::string_view id) const;  // -1 where there is none
 

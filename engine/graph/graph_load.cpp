@@ -19,14 +19,20 @@ std::unique_ptr<const Graph> Graph::parse_what_is_sound(std::string_view text, c
                                                         const std::filesystem::path& folder,
                                                         const LoadOptions& options,
                                                         Diagnostics& diagnostics) {
+    try {
+        return of_what_is_sound(parse_json(text, name), folder, options, diagnostics);
+    } catch (const Failure& f) {
+        diagnostics.error(f.error());
+        return nullptr;
+    }
+}
+
+std::unique_ptr<const Graph> Graph::of_what_is_sound(const Value& root, const std::filesystem::path& folder,
+                                                     const LoadOptions& options, Diagnostics& diagnostics) {
     auto graph = std::make_unique<Graph>();
     graph->folder_ = options.root.empty() ? folder : options.root;
     graph->has_root_ = !options.root.empty();
-    try {
-        graph->build(parse_json(text, name), options, diagnostics);
-    } catch (const Failure& f) {
-        diagnostics.error(f.error());
-    }
+    graph->build(root, options, diagnostics);
     diagnostics.sort_by_place();
     return graph->links_.empty() ? nullptr : std::move(graph);
 }

@@ -8,6 +8,7 @@
 #include "engine/json/json_reader.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace keyline {
@@ -177,27 +178,46 @@ bool Group::has_input(std::string_view name) const {
     return it != type.fields.end() && it->type.kind == TypeInfo::Kind::kInput;
 }
 
-std::shared_ptr<const Group> read_group(const std::filesystem::path& file, const Place& use,
+std::filesystem::path group_file(const std::string& name, const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> folders{folder};
+    const char* path = std::getenv("KEYLINE_PATH");
+    std::string rest = path ? path : "";
+    while (!rest.empty()) {
+        const std::size_t colon = std::min(rest.find(':'), rest.size());
+        folders.emplace_back(rest.substr(0, colon));
+        rest.erase(0, colon + 1);
+    }
+    std::error_code error;
+    for (const auto& f : folders)
+        if (std::filesystem::exists(f / name, error)) return f / name;
+    return folder / name;
+}
+
+std::shared_ptr<const Group> group_from(const std::filesystem::path& file, const Value& root,
                                         Diagnostics& diagnostics) {
     auto group = std::make_shared<Group>();
     group->file = file;
     group->type.name = file.stem().string();
     group->type.kind = NodeKind::kCompound;
+    group->root = root;
+    DeclarationReader(*group, diagnostics).read();
+    return group;
+}
+
+std::shared_ptr<const Group> read_group(const std::filesystem::path& file, const Place& use,
+                                        Diagnostics& diagnostics) {
     try {
-        group->root = parse_json(read_text(file, "the group"), file.string());
+        const Value root = parse_json(read_text(file, "the group"), file.string());
+        if (root.is(Kind::kObject) && root.find("nodes") && root.find("keyline"))
+            return group_from(file, root, diagnostics);
+        graph_error(diagnostics, root.place,
+                    "a group is a graph file, with 'keyline', 'nodes' and 'outputs'");
     } catch (const Failure& f) {
         Error e = f.error();
         if (e.place.file.empty()) e.place = use;
         diagnostics.error(std::move(e));
-        return nullptr;
     }
-    if (!group->root.is(Kind::kObject) || !group->root.find("nodes") || !group->root.find("keyline")) {
-        graph_error(diagnostics, group->root.place,
-                    "a group is a graph file, with 'keyline', 'nodes' and 'outputs'");
-        return nullptr;
-    }
-    DeclarationReader(*group, diagnostics).read();
-    return group;
+    return nullptr;
 }
 
 }  // namespace keyline

@@ -29,8 +29,15 @@ struct Group {
     bool has_input(std::string_view name) const;
 };
 
+// Where a group's file is that is used in `folder`: there, else in the folders of $KEYLINE_PATH.
+std::filesystem::path group_file(const std::string& name, const std::filesystem::path& folder);
+
 // Reads a group's file.  What is wrong with its declarations is told; null where it can't be read at all.
 std::shared_ptr<const Group> read_group(const std::filesystem::path& file, const Place& use,
+                                        Diagnostics& diagnostics);
+
+// The same of what a text says, which has 'nodes' and 'keyline'.
+std::shared_ptr<const Group> group_from(const std::filesystem::path& file, const Value& root,
                                         Diagnostics& diagnostics);
 
 // Whether a node's type means a file.

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
 #include "engine/json/value.h"
 
 #include <string>
 #include <string_view>
 
-namespace keyline {
+namespace KEYLINE_API keyline {
 
 // JSON text to values with places: line and column from 1, columns in code points; a value's place is its
 // first character, a key's its opening quote.  A line ends at LF, CR LF or a lone CR.  A byte order mark at

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/base/api.h"
 #include "engine/params/param_types.h"
 
-namespace keyline {
+namespace KEYLINE_API keyline {
 
 // Whether "= EXPRESSION" may stand for a value of a type: a number, a truth, a word, a list.  Elsewhere it is
 // text.

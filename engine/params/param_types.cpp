@@ -49,7 +49,11 @@ std::string tuple_text(const std::vector<TypeInfo>& items) {
 TypeInfo TypeInfo::number(Range range) { return of_kind(Kind::kNumber, range); }
 TypeInfo TypeInfo::integer(Range range) { return of_kind(Kind::kInteger, range); }
 TypeInfo TypeInfo::boolean() { return of_kind(Kind::kBool); }
-TypeInfo TypeInfo::string() { return of_kind(Kind::kString); }
+TypeInfo TypeInfo::string(Naming names) {
+    TypeInfo t = of_kind(Kind::kString);
+    t.names = names;
+    return t;
+}
 TypeInfo TypeInfo::file() { return of_kind(Kind::kFile); }
 TypeInfo TypeInfo::pair(Range range) { return of_kind(Kind::kPair, range); }
 TypeInfo TypeInfo::color(Range range) { return of_kind(Kind::kColor, range); }
@@ -80,8 +84,9 @@ TypeInfo TypeInfo::list(TypeInfo item) {
     return t;
 }
 
-TypeInfo TypeInfo::map(TypeInfo item) {
+TypeInfo TypeInfo::map(TypeInfo item, Naming of_keys) {
     TypeInfo t = of_kind(Kind::kMap);
+    t.names = of_keys;
     t.items.push_back(std::move(item));
     return t;
 }

@@ -100,9 +100,13 @@ struct Range {
         std::numeric_limits<double>::infinity();  // tests draw no larger values; cost grows with them
 };
 
+// What a text names, or a map's keys do, that only a config or a file knows: for editors, which offer it.
+enum class Naming { kNothing, kColorSpace, kDisplay, kView, kCryptomatte, kObject };
+
 struct Constraint {
     Range range{};
     Takes takes{};
+    Naming names = Naming::kNothing;
     bool leading = false;
 
     // Tests draw values up to this.
@@ -147,17 +151,18 @@ struct TypeInfo {
     Kind kind = Kind::kNumber;
     bool optional = false;
     Range range{};
-    std::vector<WordInfo> words;    // kWord
-    std::size_t count = 0;          // kNumbers
-    Takes takes{};                  // kInput
-    bool leading = false;           // kInput
-    std::vector<TypeInfo> items;    // kNumbers, kList, kMap: one; kTuple: each; kAnyOf: the choices
-    std::vector<FieldInfo> fields;  // kObject
+    Naming names = Naming::kNothing;  // kString: itself; kMap: its keys
+    std::vector<WordInfo> words;      // kWord
+    std::size_t count = 0;            // kNumbers
+    Takes takes{};                    // kInput
+    bool leading = false;             // kInput
+    std::vector<TypeInfo> items;      // kNumbers, kList, kMap: one; kTuple: each; kAnyOf: the choices
+    std::vector<FieldInfo> fields;    // kObject
 
     static TypeInfo number(Range range);
     static TypeInfo integer(Range range);
     static TypeInfo boolean();
-    static TypeInfo string();
+    static TypeInfo string(Naming names = Naming::kNothing);
     static TypeInfo file();
     static TypeInfo pair(Range range);
     static TypeInfo color(Range range);
@@ -165,7 +170,7 @@ struct TypeInfo {
     static TypeInfo numbers(std::size_t count, TypeInfo item);
     static TypeInfo input(Takes takes, bool leading);
     static TypeInfo list(TypeInfo item);
-    static TypeInfo map(TypeInfo item);
+    static TypeInfo map(TypeInfo item, Naming of_keys = Naming::kNothing);
     static TypeInfo object(std::vector<FieldInfo> fields);
     static TypeInfo tuple(std::vector<TypeInfo> items);
     static TypeInfo any_of(std::vector<TypeInfo> choices);

@@ -48,6 +48,12 @@ struct Field {
         f.constraint.leading = true;
         return f;
     }
+    // The text names something that a config or a file holds; of a map, its keys do.
+    constexpr Field naming(Naming names) const {
+        Field f = *this;
+        f.constraint.names = names;
+        return f;
+    }
 };
 
 template <class Owner, class T>
@@ -126,7 +132,7 @@ struct Codec<bool> {
 
 template <>
 struct Codec<std::string> {
-    static TypeInfo type(const Constraint&) { return TypeInfo::string(); }
+    static TypeInfo type(const Constraint& c) { return TypeInfo::string(c.names); }
     static Value to_value(const std::string& s) { return detail::make_value(s); }
     static std::string from_value(const Value& v, const TypeInfo&, const PathBase&) { return v.text; }
 };
@@ -236,7 +242,7 @@ struct Codec<std::vector<T>> {
 // An object with keys of the user's own: name → T.
 template <class T>
 struct Codec<Map<T>> {
-    static TypeInfo type(const Constraint& c) { return TypeInfo::map(Codec<T>::type(c)); }
+    static TypeInfo type(const Constraint& c) { return TypeInfo::map(Codec<T>::type(c), c.names); }
     static Value to_value(const Map<T>& map) {
         std::vector<Member> members;
         for (const auto& [key, t] : map.entries) members.push_back({key, {}, Codec<T>::to_value(t)});

@@ -18,8 +18,11 @@ struct Colorspace {
 
         static constexpr auto fields =
             declare(input(&Params::in, "in", "The image to convert.", colour()),
-                    field(&Params::from, "from", "The space, or role, that the input is in."),
-                    field(&Params::to, "to", "The space, or role, to convert to.").required());
+                    field(&Params::from, "from", "The space, or role, that the input is in.")
+                        .naming(Naming::kColorSpace),
+                    field(&Params::to, "to", "The space, or role, to convert to.")
+                        .required()
+                        .naming(Naming::kColorSpace));
     };
 
     explicit Colorspace(const Params& p) : params(p) {}

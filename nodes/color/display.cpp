@@ -19,9 +19,12 @@ struct Display {
 
         static constexpr auto fields =
             declare(input(&Params::in, "in", "The image to show.", colour()),
-                    field(&Params::display, "display", "The display; empty takes the config's default."),
-                    field(&Params::view, "view", "The view; empty takes the display's default."),
-                    field(&Params::from, "from", "The space, or role, that the input is in."));
+                    field(&Params::display, "display", "The display; empty takes the config's default.")
+                        .naming(Naming::kDisplay),
+                    field(&Params::view, "view", "The view; empty takes the display's default.")
+                        .naming(Naming::kView),
+                    field(&Params::from, "from", "The space, or role, that the input is in.")
+                        .naming(Naming::kColorSpace));
     };
 
     explicit Display(const Params& p) : params(p) {}

@@ -87,9 +87,11 @@ struct CryptomatteNode {
         static constexpr auto fields = declare(
             input(&Params::in, "in", "The image with the Cryptomatte, all of its layers."),
             field(&Params::layer, "layer",
-                  "The Cryptomatte's name, as \"CryptoObject\"; empty where there is but one."),
+                  "The Cryptomatte's name, as \"CryptoObject\"; empty where there is but one.")
+                .naming(Naming::kCryptomatte),
             field(&Params::objects, "objects", "Names; * in one stands for any characters, \\* for a star.")
-                .required());
+                .required()
+                .naming(Naming::kObject));
     };
     static constexpr std::array outputs{"matte"};
 

@@ -46,7 +46,8 @@ struct Read {
             field(
                 &Params::colorspace, "colorspace",
                 "The OpenColorIO space of the file: every layer of colour is converted to scene_linear; ids "
-                "and passes like normals are not. Empty leaves samples alone."),
+                "and passes like normals are not. Empty leaves samples alone.")
+                .naming(Naming::kColorSpace),
             field(&Params::part, "part",
                   "One part of a multi-part file, by name or index; empty takes all parts of the view."),
             field(&Params::view, "view", "The view of a multi-view file; empty takes its default."),

@@ -47,7 +47,8 @@ struct Write {
             field(&Params::compression, "compression", "The compression, by the format's own name for it."),
             field(&Params::colorspace, "colorspace",
                   "The OpenColorIO space of the file: every layer of colour is converted to it from "
-                  "scene_linear; ids and passes like normals are not. Empty leaves samples alone."),
+                  "scene_linear; ids and passes like normals are not. Empty leaves samples alone.")
+                .naming(Naming::kColorSpace),
             input(&Params::layers, "layers",
                   "Further inputs by layer name, written as that layer's channels."));
     };

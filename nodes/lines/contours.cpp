@@ -79,7 +79,8 @@ struct Contours {
             input(&Params::in, "in",
                   "An image with a Cryptomatte, all of its layers; or one channel of ids, whose lines are "
                   "less exact."),
-            field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one."),
+            field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one.")
+                .naming(Naming::kCryptomatte),
             input(&Params::depth, "depth",
                   "Where objects are nearer, smaller: says whose a line is, and where objects touch.  "
                   "Without it all lines are outlines, of the larger id.",

@@ -101,7 +101,8 @@ struct IdEdge {
                 &Params::in, "in",
                 "One channel of ids, or an image with a Cryptomatte; the lines then are a Cryptomatte of the "
                 "same name, so that a cryptomatte node after this one picks lines by their objects' names."),
-            field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one."),
+            field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one.")
+                .naming(Naming::kCryptomatte),
             field(&Params::side, "side", "Which side of the edge the line is on."),
             input(&Params::depth, "depth",
                   "Where objects are nearer, smaller; without it, or at the same depth, the larger id is.",

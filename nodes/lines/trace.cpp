@@ -267,7 +267,8 @@ struct Trace {
             input(
                 &Params::owner, "owner",
                 "A Cryptomatte or ids: lines belong to the object that they are on, and end where it does."),
-            field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one."),
+            field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one.")
+                .naming(Naming::kCryptomatte),
             input(&Params::except, "except",
                   "Strokes that have their lines already: what runs along one is left out.",
                   data<Strokes>()));

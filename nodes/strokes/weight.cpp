@@ -85,7 +85,8 @@ struct WeightParams {
         field(&WeightParams::by_object, "by_object",
               "The factors of objects by name, in which * stands for any characters, and of pairs of the "
               "nearer and the farther: { \"hair*\": 0.5, \"hair* × face*\": 0 }. Of several, all count.",
-              at_least(0).tested_to(4)),
+              at_least(0).tested_to(4))
+            .naming(Naming::kObject),
         input(&WeightParams::map, "map",
               "An image of one channel that widths follow, looked up beside the line on what it belongs to: "
               "light, or what somebody painted.",

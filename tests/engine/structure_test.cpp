@@ -110,9 +110,13 @@ const std::vector<Folder> kFolders = {
       "engine/plan"},
      {"tbb/", "oneapi/"}},
     {"nodes", {"engine/simd", "engine/io", "engine/params", "engine/node", "engine/kit"}, {}},
+    {"cli/lsp",
+     {"engine/json", "engine/expr", "engine/color", "engine/io", "engine/params", "engine/node", "engine/kit",
+      "engine/graph", "engine/plan", "engine/run"},
+     {}},
     {"cli",
-     {"engine/json", "engine/color", "engine/io", "engine/params", "engine/node", "engine/kit", "engine/look",
-      "engine/measure", "engine/graph", "engine/plan", "engine/run"},
+     {"cli/lsp", "engine/json", "engine/color", "engine/io", "engine/params", "engine/node", "engine/kit",
+      "engine/look", "engine/measure", "engine/graph", "engine/plan", "engine/run"},
      {"CLI/"}},
 };
 
