@@ -14,7 +14,7 @@ foreach(header IN LISTS headers)
     install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/keyline/${folder})
   endif()
 endforeach()
-install(DIRECTORY graphs DESTINATION ${CMAKE_INSTALL_DATADIR}/keyline)
+install(DIRECTORY editors graphs DESTINATION ${CMAKE_INSTALL_DATADIR}/keyline)
 
 install(EXPORT keyline-targets NAMESPACE keyline:: DESTINATION ${package_dir})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/keyline-config.cmake.in

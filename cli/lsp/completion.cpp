@@ -46,7 +46,8 @@ private:
         if (meaning.node && path.size() == 2) return add(keys_of_node(meaning.of_node.type));
         if (!meaning.type) return;
         if (meaning.type->kind == TypeInfo::Kind::kObject) return add(keys_of(meaning.type->fields));
-        if (meaning.type->kind == TypeInfo::Kind::kMap) return add(named(meaning.type->names, known_, {}));
+        if (meaning.type->kind == TypeInfo::Kind::kMap)
+            return add(named(meaning.type->names, known_, owner_of(meaning)));
         add(keys_of_animation());
     }
 
@@ -83,7 +84,7 @@ private:
             case TypeInfo::Kind::kBool: return add(truths());
             case TypeInfo::Kind::kInput: return add(links(known_, before, id));
             case TypeInfo::Kind::kFile: return add(files(document_.folder(), before));
-            case TypeInfo::Kind::kString: return add(named(type.names, known_, display_of(meaning)));
+            case TypeInfo::Kind::kString: return add(named(type.names, known_, owner_of(meaning)));
             case TypeInfo::Kind::kAnyOf:
                 for (const TypeInfo& choice : type.items) of_type(choice, before, meaning);
                 return;
@@ -91,11 +92,15 @@ private:
         }
     }
 
-    // That a view is to be of.
-    std::string display_of(const Meaning& meaning) const {
-        if (!meaning.node || !meaning.of_node.type) return "";
+    // The display that a view is to be of, the Cryptomatte that an object is to be of; empty where the node
+    // does not say.
+    std::string owner_of(const Meaning& meaning) const {
+        if (!meaning.node || !meaning.of_node.type || !meaning.type) return "";
+        const Naming owner = meaning.type->names == Naming::kView     ? Naming::kDisplay
+                             : meaning.type->names == Naming::kObject ? Naming::kCryptomatte
+                                                                      : Naming::kNothing;
         for (const FieldInfo& f : meaning.of_node.type->fields)
-            if (f.type.names == Naming::kDisplay)
+            if (owner != Naming::kNothing && f.type.names == owner)
                 if (const JsonItem* item = document_.member(meaning.node->value, f.name))
                     return document_.string_of(item->value.span);
         return "";

@@ -169,7 +169,7 @@ std::vector<Offer> listed(const std::vector<std::string>& names, const char* det
 
 }  // namespace
 
-std::vector<Offer> named(Naming names, const Known& known, const std::string& display) {
+std::vector<Offer> named(Naming names, const Known& known, const std::string& owner) {
     std::vector<Offer> out;
     const auto config = colors_of(known.analysis, known.session);
     switch (names) {
@@ -178,7 +178,7 @@ std::vector<Offer> named(Naming names, const Known& known, const std::string& di
         case Naming::kDisplay: return config ? listed(config->displays(), "a display") : out;
         case Naming::kView: {
             if (!config || config->displays().empty()) return out;
-            return listed(config->views(display.empty() ? config->displays().front() : display), "a view");
+            return listed(config->views(owner.empty() ? config->displays().front() : owner), "a view");
         }
         case Naming::kCryptomatte:
             for (const NamedObjects& c : cryptomattes_of(known.analysis))
@@ -186,9 +186,11 @@ std::vector<Offer> named(Naming names, const Known& known, const std::string& di
                     {c.cryptomatte, OfferKind::kValue, fmt::format("{} objects", c.objects.size()), ""});
             break;
         case Naming::kObject:
-            for (const NamedObjects& c : cryptomattes_of(known.analysis))
+            for (const NamedObjects& c : cryptomattes_of(known.analysis)) {
+                if (!c.cryptomatte.ends_with(owner)) continue;
                 for (const std::string& object : c.objects)
                     out.push_back({object, OfferKind::kValue, "an object of " + c.cryptomatte, ""});
+            }
             break;
     }
     return out;

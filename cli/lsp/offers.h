@@ -53,7 +53,8 @@ std::vector<Offer> links(const Known& known, const std::string& typed, const std
 // What lies in the folder that was typed, frames of a sequence as one.
 std::vector<Offer> files(const std::filesystem::path& folder, const std::string& typed);
 
-// What a config or the files of the graph hold.
-std::vector<Offer> named(Naming names, const Known& known, const std::string& display);
+// What a config or the files of the graph hold; `owner` is the display that views are of, or the Cryptomatte
+// that objects are of, by the end of its name; empty: the first display, any Cryptomatte.
+std::vector<Offer> named(Naming names, const Known& known, const std::string& owner);
 
 }  // namespace keyline::lsp

@@ -25,13 +25,12 @@ public:
         scopes_[""] = scope;
         for (std::size_t i = 0; i < read_.nodes.size(); ++i)
             if (const Value* type = read_.nodes[i].object.find("type"); type && is_group(type->text))
-                expand(i, *type);
+                expand(i, Value(*type));  // nodes move when others come
         std::erase_if(read_.nodes, [&](const GraphNode& n) { return expanded_.contains(n.id); });
     }
 
 private:
-    void expand(std::size_t i, const Value& type_name) {
-        const Value type = type_name;
+    void expand(std::size_t i, const Value& type) {
         apply_set_options_of(read_.nodes[i]);
         GraphNode node = read_.nodes[i];
         expanded_.insert(node.id);

@@ -72,9 +72,9 @@ private:
     JsonTree value() {
         const char c = peek();
         if ((c == '{' || c == '[') && depth_ < kDeepest) return container();
-        if (c == '"') return {JsonTree::Kind::kString, string()};
+        if (c == '"') return {JsonTree::Kind::kString, string(), {}};
         const Span span = word();
-        return {span.is_empty() ? JsonTree::Kind::kMissing : JsonTree::Kind::kWord, span};
+        return {span.is_empty() ? JsonTree::Kind::kMissing : JsonTree::Kind::kWord, span, {}};
     }
 
     Span word() {
@@ -97,7 +97,7 @@ private:
 
     JsonTree container() {
         const char close = peek() == '{' ? '}' : ']';
-        JsonTree out{close == '}' ? JsonTree::Kind::kObject : JsonTree::Kind::kArray, {at_, at_}};
+        JsonTree out{close == '}' ? JsonTree::Kind::kObject : JsonTree::Kind::kArray, {at_, at_}, {}};
         ++at_;
         ++depth_;
         JsonItem next;
@@ -165,7 +165,7 @@ private:
         const std::size_t begin = at_;
         out.value = value();
         if (out.value.is(JsonTree::Kind::kString) && is_colon_next()) {  // the next key, and no value
-            out.value = {JsonTree::Kind::kMissing, {after_colon, after_colon}};
+            out.value = {JsonTree::Kind::kMissing, {after_colon, after_colon}, {}};
             at_ = after_colon;
             return;
         }

@@ -41,7 +41,7 @@ struct JsonTree {
 
     Kind kind = Kind::kMissing;
     Span span = {};
-    std::vector<JsonItem> items = {};          // of an array or an object
+    std::vector<JsonItem> items;               // of an array or an object
     std::vector<JsonComment> before_end = {};  // comments on lines of their own in front of the bracket
     bool is_closed = true;                     // else its end is missing
 

@@ -19,7 +19,8 @@ struct Look {
         static constexpr auto fields = declare(
             input(&Params::in, "in", "The image.", colour()),
             field(&Params::look, "look", "The look's name; several as \"+grade, -warm\"; empty for none."),
-            field(&Params::space, "space", "The space, or role, that the image is in and stays in."),
+            field(&Params::space, "space", "The space, or role, that the image is in and stays in.")
+                .naming(Naming::kColorSpace),
             field(&Params::inverse, "inverse", "Whether to take the look back."));
     };
 

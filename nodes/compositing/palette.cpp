@@ -81,11 +81,14 @@ struct Palette {
         static constexpr auto fields = declare(
             input(&Params::in, "in", "The image with the Cryptomatte, all of its layers."),
             field(&Params::layer, "layer",
-                  "The Cryptomatte's name, as \"CryptoObject\"; empty where there is but one."),
+                  "The Cryptomatte's name, as \"CryptoObject\"; empty where there is but one.")
+                .naming(Naming::kCryptomatte),
             field(&Params::colors, "colors",
                   "Colours by name, in which * stands for any characters: { \"hair*\": \"#302018\", \"*\": "
-                  "[0.2, 0.2, 0.2] }. The first that matches counts. Makes R G B, premultiplied, and A."),
-            field(&Params::values, "values", "Numbers by name instead; makes one channel, 'value'."));
+                  "[0.2, 0.2, 0.2] }. The first that matches counts. Makes R G B, premultiplied, and A.")
+                .naming(Naming::kObject),
+            field(&Params::values, "values", "Numbers by name instead; makes one channel, 'value'.")
+                .naming(Naming::kObject));
     };
 
     static void check(const Params& p, Check& c) {
