@@ -30,7 +30,8 @@ Span use_of(const Document& document, const std::string& file) {
     if (const JsonTree* nodes = document.section("nodes"))
         for (const JsonItem& node : nodes->items) {
             const JsonItem* type = document.member(node.value, "type");
-            const std::string name = type ? document.string_of(type->value.span) : "";
+            if (!type) continue;
+            const std::string name = document.string_of(type->value.span);
             if (is_group(name) && group_file(name, document.folder()) == std::filesystem::path(file))
                 return type->value.span;
         }

@@ -130,7 +130,10 @@ void Server::hear(const std::string& method, const Value& params) {
 }
 
 void Server::open(const std::string& uri, Text text) {
-    documents_[uri] = {std::make_unique<const Document>(uri, std::move(text)), {}, false, false};
+    auto document = std::make_unique<const Document>(uri, std::move(text));
+    Open& at = documents_[uri];  // found before the old document goes, which `uri` may lie in
+    at = {};
+    at.document = std::move(document);
 }
 
 void Server::change(const Value& params) {
