@@ -70,7 +70,7 @@ private:
     std::shared_ptr<const Group> group_of(const Value& type, const Scope& outer, const GraphNode& node) {
         const std::filesystem::path file = group_file(type.text, outer.file.parent_path());
         std::error_code error;
-        for (const Scope* scope = &outer; scope; scope = scope->outer.get())
+        for (const Scope* scope = &outer; scope; scope = scope->outer)
             if (std::filesystem::equivalent(scope->file, file, error)) {
                 graph_error(diagnostics_, type.place,
                             fmt::format("the group {} is inside itself", in_quotes(type.text)), {},
@@ -86,7 +86,7 @@ private:
         inside->prefix = node.id + "/";
         inside->file = group.file;
         inside->folder = group.file.parent_path();
-        inside->outer = outer;
+        inside->outer = outer.get();
         inside->use = fmt::format(", used at {}{}", node.place.text(), outer->use);
         Value declared;
         declared.kind = Value::Kind::kObject;

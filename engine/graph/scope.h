@@ -32,7 +32,7 @@ struct Scope {
     std::filesystem::path file;    // that says it
     std::filesystem::path folder;  // what relative paths in it are relative to
     std::shared_ptr<const Variables> variables;
-    std::shared_ptr<const Scope> outer = {};  // where the group is used; null: the graph itself
+    const Scope* outer = nullptr;  // where the group is used, which holds this; null: the graph itself
     std::map<std::string, std::optional<Value>> inputs =
         {};                                       // of the group: links as written there; none: not connected
     std::map<std::string, GroupUse> groups = {};  // those used in it, by the ids that they have in it
