@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/commands.h"
-#include "cli/machine.h"
+#include "cli/common/commands.h"
+#include "cli/common/machine.h"
+#include "cli/common/report.h"
 #include "cli/manual.h"
-#include "cli/report.h"
 #include "engine/color/color.h"
 #include "engine/color/opencolorio_log.h"
 #include "engine/io/versions.h"

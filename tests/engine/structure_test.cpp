@@ -77,6 +77,11 @@ struct Folder {
     Strings libraries;  // how the includes begin that no other folder has
 };
 
+// The rooms of commands differ by what they are for, not by what they stand on.
+const Strings kOfCommands = {"cli/common",    "engine/json", "engine/expr", "engine/color", "engine/io",
+                             "engine/params", "engine/node", "engine/kit",  "engine/look",  "engine/measure",
+                             "engine/graph",  "engine/plan", "engine/run"};
+
 const std::vector<Folder> kFolders = {
     {"engine/base", {}, {"xxhash"}},
     {"engine/json", {}, {"nlohmann/"}},
@@ -110,13 +115,18 @@ const std::vector<Folder> kFolders = {
       "engine/plan"},
      {"tbb/", "oneapi/"}},
     {"nodes", {"engine/simd", "engine/io", "engine/params", "engine/node", "engine/kit"}, {}},
-    {"cli/lsp",
-     {"engine/json", "engine/expr", "engine/color", "engine/io", "engine/params", "engine/node", "engine/kit",
-      "engine/graph", "engine/plan", "engine/run"},
-     {}},
+    {"cli/common",
+     {"engine/json", "engine/color", "engine/io", "engine/params", "engine/node", "engine/graph",
+      "engine/plan", "engine/run"},
+     {"CLI/"}},
+    {"cli/graphs", kOfCommands, {"CLI/"}},
+    {"cli/render", kOfCommands, {"CLI/"}},
+    {"cli/farm", kOfCommands, {"CLI/"}},
+    {"cli/look", kOfCommands, {"CLI/"}},
+    {"cli/lsp", kOfCommands, {"CLI/"}},
     {"cli",
-     {"cli/lsp", "engine/json", "engine/color", "engine/io", "engine/params", "engine/node", "engine/kit",
-      "engine/look", "engine/measure", "engine/graph", "engine/plan", "engine/run"},
+     {"cli/common", "cli/graphs", "cli/render", "cli/farm", "cli/look", "cli/lsp", "engine/color",
+      "engine/io"},
      {"CLI/"}},
 };
 

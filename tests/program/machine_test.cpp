@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/machine.h"
+#include "cli/common/machine.h"
 
 #include "tests/program/program.h"
 

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/farm/submit.h"
+
+#include "cli/common/commands.h"
+#include "cli/common/frames.h"
+#include "cli/common/report.h"
+#include "cli/common/run_program.h"
+#include "engine/params/frames.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <random>
+
+namespace keyline::cli {
+
+namespace {
+
+constexpr int kMostFramesOfATask = 1'000'000;
+constexpr std::size_t kBeside = std::size_t{64} << 20;  // bytes, for the script and the libraries
+
+struct SubmitArguments {
+    GraphArguments graph;
+    std::string chunk = "10", name, logs = ".", partition, round = "1", rounds = "3";
+    bool print = false, wait = false;
+    std::string bundle;
+};
+
+std::vector<std::string> chunks_of(const std::vector<int>& frames, int chunk) {
+    std::vector<std::string> out;
+    const auto n = static_cast<std::size_t>(chunk);
+    for (std::size_t i = 0; i < frames.size(); i += n) {
+        const auto first = frames.begin() + static_cast<std::ptrdiff_t>(i);
+        out.push_back(
+            format_frames({first, first + static_cast<std::ptrdiff_t>(std::min(n, frames.size() - i))}));
+        std::erase(out.back(), ' ');
+    }
+    return out;
+}
+
+// What tells jobs of the same graph apart.
+std::string name_of(const GraphArguments& graph) {
+    std::string stem = std::filesystem::path(graph.graph).stem().string();
+    std::ranges::replace_if(
+        stem, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return fmt::format("keyline-{}-{:06x}", stem, std::random_device()() & 0xFFFFFFU);
+}
+
+void add_folder(std::vector<std::string>& folders, const std::filesystem::path& file) {
+    const std::string folder = std::filesystem::absolute(file).parent_path().string();
+    if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
+}
+
+// What the first frame needs on so many threads, as a manager is to allot it: a render takes seven eighths.
+void plan_task(const LoadedGraph& loaded, Submission& job, Diagnostics& diagnostics) {
+    RenderOptions options = loaded.options;
+    options.threads = job.cpus;
+    if (loaded.memory.by != "--memory") options.memory = 0;
+    const std::optional<Plan> plan = plan_frame(*loaded.graph, job.frames.front(), options, diagnostics);
+    if (!plan) return;
+    job.memory = plan->memory_bytes / 7 * 8 + kBeside;
+    for (const FrameInput& in : plan->frame.inputs) add_folder(job.input_folders, in.file);
+    for (const Sink& sink : plan->frame.sinks) add_folder(job.output_folders, sink.request.file);
+}
+
+std::optional<Submission> prepared(const SubmitArguments& arguments, Diagnostics& diagnostics) {
+    LoadedGraph loaded = load_graph(arguments.graph, diagnostics);
+    if (loaded.graph)
+        loaded.options.frames = frames_to_render(*loaded.graph, loaded.options.frames, diagnostics);
+    Submission job;
+    const auto count = [&](const char* option, const std::string& text, int most, int& out) {
+        try {
+            out = parse_count(text, 1, most);
+        } catch (const Failure& f) {
+            Error e = f.error();
+            e.place = {std::string(option) + " " + text, 0, 0};
+            diagnostics.error(std::move(e));
+        }
+    };
+    count("--chunk", arguments.chunk, kMostFramesOfATask, job.chunk);
+    count("--round", arguments.round, 100, job.round);
+    count("--rounds", arguments.rounds, 100, job.rounds);
+    if (!diagnostics.ok()) return std::nullopt;
+    job.graph = arguments.graph;
+    job.frames = loaded.options.frames;
+    job.chunks = chunks_of(job.frames, job.chunk);
+    job.name = arguments.name.empty() ? name_of(arguments.graph) : arguments.name;
+    job.cpus = arguments.graph.threads.empty() ? 1 : loaded.options.threads;
+    // What ran out of memory gets more in the next round.
+    plan_task(loaded, job, diagnostics);
+    job.memory *= static_cast<std::size_t>(job.round);
+    job.partition = arguments.partition;
+    job.logs = arguments.logs;
+    return diagnostics.ok() ? std::optional(std::move(job)) : std::nullopt;
+}
+
+int run(const SubmitArguments& arguments, const std::string& manager) {
+    Diagnostics diagnostics;
+    const std::optional<Submission> job = prepared(arguments, diagnostics);
+    report(diagnostics);
+    if (!job) return exit_status(diagnostics);
+    if (manager == "slurm") return submit_to_slurm(*job, {arguments.print, arguments.wait});
+    write_openjd_bundle(*job, arguments.bundle);
+    return 0;
+}
+
+CLI::App& add_manager(CLI::App& submit, Chosen& chosen, const std::shared_ptr<SubmitArguments>& arguments,
+                      const std::string& name, const std::string& help) {
+    CLI::App& command = *submit.add_subcommand(name, help);
+    add_graph_options(command, arguments->graph);
+    add_value_option(command, "--chunk", arguments->chunk, "N", "Frames of a task; 10 when absent");
+    add_value_option(command, "--threads", arguments->graph.threads, "N", "Cores of a task; 1 when absent");
+    add_value_option(command, "--memory", arguments->graph.memory, "SIZE",
+                     "Memory that a task plans with; what is fastest when absent");
+    add_value_option(command, "--name", arguments->name, "NAME", "The job's name");
+    command.callback(
+        [&chosen, arguments, name] { chosen = [arguments, name] { return run(*arguments, name); }; });
+    return command;
+}
+
+}  // namespace
+
+std::string command_line(const Submission& job, const char* command) {
+    std::string out = fmt::format("{} {} {}", shell_word(own_program()), command, options_text(job.graph));
+    for (const std::string& s : job.graph.only) out += " --only=" + shell_word(s);
+    for (const std::string& s : job.graph.output) out += " --output=" + shell_word(s);
+    return out;
+}
+
+void add_submit(CLI::App& program, Chosen& chosen) {
+    CLI::App& submit = *program.add_subcommand("submit", "Give a sequence to a render farm's manager");
+    submit.require_subcommand(1);
+    const auto arguments = std::make_shared<SubmitArguments>();
+    CLI::App& slurm = add_manager(submit, chosen, arguments, "slurm",
+                                  "An array of tasks for Slurm, and a job that verifies and repairs");
+    add_value_option(slurm, "--partition", arguments->partition, "NAME",
+                     "The partition; Slurm's when absent");
+    add_value_option(slurm, "--logs", arguments->logs, "DIR", "The folder of the logs; this one when absent");
+    add_value_option(slurm, "--rounds", arguments->rounds, "N",
+                     "Tries of what is not current before the job fails; 3 when absent");
+    add_value_option(slurm, "--round", arguments->round, "N", "Which of them this is")->group("");
+    slurm.add_flag("--print", arguments->print, "Print what would be submitted, and submit nothing");
+    slurm.add_flag("--wait", arguments->wait,
+                   "Wait for the end; status 0 where all outputs are current then");
+    CLI::App& openjd = add_manager(submit, chosen, arguments, "openjd",
+                                   "A job bundle of Open Job Description, as AWS Deadline Cloud takes it");
+    add_value_option(openjd, "--bundle", arguments->bundle, "DIR", "The folder to write it into")->required();
+}
+
+}  // namespace keyline::cli

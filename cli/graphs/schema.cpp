@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/common/commands.h"
+#include "cli/common/options.h"
+#include "cli/common/report.h"
+#include "engine/base/text.h"
+#include "engine/io/text_file.h"
+#include "engine/node/reference.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+
+namespace keyline::cli {
+
+namespace {
+
+constexpr const char* kFileName = "keyline.schema.json";
+
+int run(const std::string& folder) {
+    const std::string schema = schema_json() + "\n";
+    if (folder.empty()) return print_result(schema), 0;
+    const std::filesystem::path file = std::filesystem::path(folder) / kFileName;
+    write_text_file(file, schema);
+    print_result(fmt::format("{}: name it in \"$schema\" of a graph, or in the editor's settings\n",
+                             escaped(std::filesystem::absolute(file).lexically_normal().string())));
+    return 0;
+}
+
+}  // namespace
+
+void add_schema(CLI::App& program, Chosen& chosen) {
+    CLI::App& command = *program.add_subcommand("schema", "The JSON Schema of graph files, for editors");
+    const auto folder = std::make_shared<std::string>();
+    add_value_option(command, "--install", *folder, "DIR",
+                     fmt::format("Write it into this folder, as {}, instead of printing it", kFileName));
+    command.callback([&chosen, folder] { chosen = [folder] { return run(*folder); }; });
+}
+
+}  // namespace keyline::cli
