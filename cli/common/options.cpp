@@ -18,16 +18,6 @@ namespace {
 constexpr int kMostThreads = 1024;
 constexpr int kLargestTile = 1 << 20;
 
-// May be given any number of times, with one value each.
-void add_repeatable(CLI::App& command, const std::string& name, std::vector<std::string>& values,
-                    const std::string& value_name, const std::string& help) {
-    command.add_option(name, values, help)
-        ->type_name(value_name)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false);
-}
-
 // Reads options one by one; a fault is told with the option as its place, and the next one is read.
 class OptionReader {
 public:
@@ -130,44 +120,38 @@ void read_render_options(const GraphArguments& a, OptionReader& reader, LoadedGr
 
 }  // namespace
 
-CLI::Option* add_value_option(CLI::App& command, const std::string& name, std::string& value,
-                              const std::string& value_name, const std::string& help) {
-    return command.add_option(name, value, help)->type_name(value_name);
-}
-
-void add_graph_options(CLI::App& command, GraphArguments& a) {
-    command.add_option("GRAPH", a.graph, "The graph file; - for standard input")->required()->type_name("");
+void add_graph_options(const Command& command, GraphArguments& a) {
+    command.argument("GRAPH", a.graph, "The graph file; - for standard input");
     add_graph_value_options(command, a);
 }
 
-void add_graph_value_options(CLI::App& command, GraphArguments& a) {
-    add_value_option(
-        command, "--frames", a.frames, "SPEC",
+void add_graph_value_options(const Command& command, GraphArguments& a) {
+    command.option(
+        "--frames", a.frames, "SPEC",
         "Frames: A, A-B, A-BxS or A-B:S, joined by commas (--frames=-5-5 where A is negative); all "
         "that are on disk: all; a list in a file: @FILE, by standard input: -");
-    add_repeatable(command, "--set", a.set, "NODE.NAME=VALUE",
+    command.option("--set", a.set, "NODE.NAME=VALUE",
                    "Set a parameter or an input; VALUE is JSON where it is JSON, else a string");
-    add_repeatable(command, "--var", a.var, "NAME=VALUE", "Set a variable of the graph");
-    add_repeatable(command, "--vars", a.vars, "FILE",
-                   "Take variables from a JSON file, over the graph's own");
-    add_repeatable(command, "--only", a.only, "NODE", "Run just this write");
-    add_repeatable(command, "--output", a.output, "NODE[:NAME]=FILE",
+    command.option("--var", a.var, "NAME=VALUE", "Set a variable of the graph");
+    command.option("--vars", a.vars, "FILE", "Take variables from a JSON file, over the graph's own");
+    command.option("--only", a.only, "NODE", "Run just this write");
+    command.option("--output", a.output, "NODE[:NAME]=FILE",
                    "Write that node's result instead of the graph's writes");
-    add_value_option(command, "--ocio", a.ocio, "FILE",
-                     "The OpenColorIO config; else the graph's, else $OCIO, else the built-in one");
-    add_value_option(
-        command, "--path-map", a.path_map, "FILE",
+    command.option("--ocio", a.ocio, "FILE",
+                   "The OpenColorIO config; else the graph's, else $OCIO, else the built-in one");
+    command.option(
+        "--path-map", a.path_map, "FILE",
         "Where folders of other machines lie on this one: path mapping rules of Open Job Description");
-    add_value_option(command, "--root", a.root, "DIR",
-                     "The folder that relative paths are relative to, instead of the graph's");
+    command.option("--root", a.root, "DIR",
+                   "The folder that relative paths are relative to, instead of the graph's");
 }
 
-void add_machine_options(CLI::App& command, GraphArguments& a) {
-    add_value_option(command, "--threads", a.threads, "N",
-                     "Worker threads; all cores that the task may use when absent");
-    add_value_option(command, "--tile", a.tile, "N", "Tile size in pixels; the planner's choice when absent");
-    add_value_option(
-        command, "--memory", a.memory, "SIZE",
+void add_machine_options(const Command& command, GraphArguments& a) {
+    command.option("--threads", a.threads, "N",
+                   "Worker threads; all cores that the task may use when absent");
+    command.option("--tile", a.tile, "N", "Tile size in pixels; the planner's choice when absent");
+    command.option(
+        "--memory", a.memory, "SIZE",
         "The most memory of the whole process, as 512M or 4G; when absent half of the machine's, or most of "
         "what a render farm allots to the task");
 }

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cli/common/command_line.h"
 #include "cli/common/machine.h"
 #include "engine/run/render.h"
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -24,17 +24,13 @@ struct GraphArguments {
 };
 
 // The graph, and which of its nodes and frames with which values.
-void add_graph_options(CLI::App& command, GraphArguments& arguments);
+void add_graph_options(const Command& command, GraphArguments& arguments);
 
 // The same without the graph.
-void add_graph_value_options(CLI::App& command, GraphArguments& arguments);
+void add_graph_value_options(const Command& command, GraphArguments& arguments);
 
 // --threads, --tile and --memory.
-void add_machine_options(CLI::App& command, GraphArguments& arguments);
-
-// An option that takes a value and stands for one value only, `--name VALUE` or `--name=VALUE`.
-CLI::Option* add_value_option(CLI::App& command, const std::string& name, std::string& value,
-                              const std::string& value_name, const std::string& help);
+void add_machine_options(const Command& command, GraphArguments& arguments);
 
 struct LoadedGraph {
     std::unique_ptr<const Graph> graph;  // null where there was an error; the diagnostics have it

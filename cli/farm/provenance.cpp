@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/provenance.h"
 
-#include "cli/common/commands.h"
 #include "cli/common/report.h"
+#include "cli/farm/commands.h"
 #include "engine/base/text.h"
 #include "engine/json/json_writer.h"
 
@@ -58,13 +58,13 @@ int run(const ProvenanceArguments& arguments) {
 
 }  // namespace
 
-void add_provenance(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand("provenance", "What made an output: graph, inputs, versions");
+void add_provenance(const Command& program) {
+    const Command command = program.add("provenance", "What made an output: graph, inputs, versions");
     const auto arguments = std::make_shared<ProvenanceArguments>();
-    command.add_option("FILE", arguments->file, "An image that Keyline wrote")->required()->type_name("");
-    command.add_flag("--graph", arguments->graph, "Just the graph, as a graph file");
-    command.add_flag("--json", arguments->json, "All of it, as JSON");
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command.argument("FILE", arguments->file, "An image that Keyline wrote");
+    command.flag("--graph", arguments->graph, "Just the graph, as a graph file");
+    command.flag("--json", arguments->json, "All of it, as JSON");
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

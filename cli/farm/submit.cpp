@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/farm/submit.h"
 
-#include "cli/common/commands.h"
 #include "cli/common/frames.h"
 #include "cli/common/report.h"
 #include "cli/common/run_program.h"
+#include "cli/farm/commands.h"
 #include "engine/params/frames.h"
 
 #include <algorithm>
@@ -108,17 +108,16 @@ int run(const SubmitArguments& arguments, const std::string& manager) {
     return 0;
 }
 
-CLI::App& add_manager(CLI::App& submit, Chosen& chosen, const std::shared_ptr<SubmitArguments>& arguments,
-                      const std::string& name, const std::string& help) {
-    CLI::App& command = *submit.add_subcommand(name, help);
+Command add_manager(const Command& submit, const std::shared_ptr<SubmitArguments>& arguments,
+                    const std::string& name, const std::string& help) {
+    const Command command = submit.add(name, help);
     add_graph_options(command, arguments->graph);
-    add_value_option(command, "--chunk", arguments->chunk, "N", "Frames of a task; 10 when absent");
-    add_value_option(command, "--threads", arguments->graph.threads, "N", "Cores of a task; 1 when absent");
-    add_value_option(command, "--memory", arguments->graph.memory, "SIZE",
-                     "Memory that a task plans with; what is fastest when absent");
-    add_value_option(command, "--name", arguments->name, "NAME", "The job's name");
-    command.callback(
-        [&chosen, arguments, name] { chosen = [arguments, name] { return run(*arguments, name); }; });
+    command.option("--chunk", arguments->chunk, "N", "Frames of a task; 10 when absent");
+    command.option("--threads", arguments->graph.threads, "N", "Cores of a task; 1 when absent");
+    command.option("--memory", arguments->graph.memory, "SIZE",
+                   "Memory that a task plans with; what is fastest when absent");
+    command.option("--name", arguments->name, "NAME", "The job's name");
+    command.runs([arguments, name] { return run(*arguments, name); });
     return command;
 }
 
@@ -131,24 +130,22 @@ std::string command_line(const Submission& job, const char* command) {
     return out;
 }
 
-void add_submit(CLI::App& program, Chosen& chosen) {
-    CLI::App& submit = *program.add_subcommand("submit", "Give a sequence to a render farm's manager");
-    submit.require_subcommand(1);
+void add_submit(const Command& program) {
+    const Command submit = program.add("submit", "Give a sequence to a render farm's manager");
+    submit.needs_one_below();
     const auto arguments = std::make_shared<SubmitArguments>();
-    CLI::App& slurm = add_manager(submit, chosen, arguments, "slurm",
-                                  "An array of tasks for Slurm, and a job that verifies and repairs");
-    add_value_option(slurm, "--partition", arguments->partition, "NAME",
-                     "The partition; Slurm's when absent");
-    add_value_option(slurm, "--logs", arguments->logs, "DIR", "The folder of the logs; this one when absent");
-    add_value_option(slurm, "--rounds", arguments->rounds, "N",
-                     "Tries of what is not current before the job fails; 3 when absent");
-    add_value_option(slurm, "--round", arguments->round, "N", "Which of them this is")->group("");
-    slurm.add_flag("--print", arguments->print, "Print what would be submitted, and submit nothing");
-    slurm.add_flag("--wait", arguments->wait,
-                   "Wait for the end; status 0 where all outputs are current then");
-    CLI::App& openjd = add_manager(submit, chosen, arguments, "openjd",
-                                   "A job bundle of Open Job Description, as AWS Deadline Cloud takes it");
-    add_value_option(openjd, "--bundle", arguments->bundle, "DIR", "The folder to write it into")->required();
+    const Command slurm = add_manager(submit, arguments, "slurm",
+                                      "An array of tasks for Slurm, and a job that verifies and repairs");
+    slurm.option("--partition", arguments->partition, "NAME", "The partition; Slurm's when absent");
+    slurm.option("--logs", arguments->logs, "DIR", "The folder of the logs; this one when absent");
+    slurm.option("--rounds", arguments->rounds, "N",
+                 "Tries of what is not current before the job fails; 3 when absent");
+    slurm.option("--round", arguments->round, "N", "Which of them this is").hidden();
+    slurm.flag("--print", arguments->print, "Print what would be submitted, and submit nothing");
+    slurm.flag("--wait", arguments->wait, "Wait for the end; status 0 where all outputs are current then");
+    const Command openjd = add_manager(
+        submit, arguments, "openjd", "A job bundle of Open Job Description, as AWS Deadline Cloud takes it");
+    openjd.option("--bundle", arguments->bundle, "DIR", "The folder to write it into").required();
 }
 
 }  // namespace keyline::cli

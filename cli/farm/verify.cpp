@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/verify.h"
 
-#include "cli/common/commands.h"
 #include "cli/common/frames.h"
 #include "cli/common/options.h"
 #include "cli/common/report.h"
+#include "cli/farm/commands.h"
 #include "engine/base/text.h"
 #include "engine/json/json_writer.h"
 #include "engine/params/frames.h"
@@ -146,21 +146,20 @@ int run(const VerifyArguments& arguments) {
 
 }  // namespace
 
-void add_verify(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand(
+void add_verify(const Command& program) {
+    const Command command = program.add(
         "verify",
         "Tell which outputs are whole and made by this graph from these inputs; status 1 where some are not");
     const auto arguments = std::make_shared<VerifyArguments>();
     add_graph_options(command, arguments->graph);
-    add_value_option(command, "--threads", arguments->graph.threads, "N",
-                     "Worker threads; all cores that the task may use when absent");
-    add_value_option(
-        command, "--list", arguments->list, "STATES",
-        "Print just the frames of these outputs, as --frames takes them: some of current, stale, "
-        "damaged, missing, foreign, joined by commas");
-    command.add_flag("--json", arguments->json, "As JSON: an object with a list of the outputs");
-    command.add_flag("--hashes", arguments->hashes, "Show the samples' hash of every channel too");
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command.option("--threads", arguments->graph.threads, "N",
+                   "Worker threads; all cores that the task may use when absent");
+    command.option("--list", arguments->list, "STATES",
+                   "Print just the frames of these outputs, as --frames takes them: some of current, stale, "
+                   "damaged, missing, foreign, joined by commas");
+    command.flag("--json", arguments->json, "As JSON: an object with a list of the outputs");
+    command.flag("--hashes", arguments->hashes, "Show the samples' hash of every channel too");
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

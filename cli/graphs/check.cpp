@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/frames.h"
 #include "cli/common/options.h"
 #include "cli/common/report.h"
+#include "cli/graphs/commands.h"
 #include "cli/graphs/streams.h"
 #include "engine/params/frames.h"
 
@@ -88,18 +88,15 @@ int run(const CheckArguments& arguments) {
 
 }  // namespace
 
-void add_check(CLI::App& program, Chosen& chosen) {
-    CLI::App& command =
-        *program.add_subcommand("check", "Tell every error of graphs without computing a pixel");
+void add_check(const Command& program) {
+    const Command command = program.add("check", "Tell every error of graphs without computing a pixel");
     const auto arguments = std::make_shared<CheckArguments>();
-    command.add_option("GRAPH", arguments->graphs, "Graph files; - for standard input")
-        ->required()
-        ->type_name("");
+    command.argument("GRAPH", arguments->graphs, "Graph files; - for standard input");
     add_graph_value_options(command, arguments->of_each);
-    command.add_flag("--streams", arguments->streams,
-                     "Show what each node makes: windows, channels, types and digests");
-    command.add_flag("--json", arguments->json, "With --streams, as JSON: a list with an object a frame");
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command.flag("--streams", arguments->streams,
+                 "Show what each node makes: windows, channels, types and digests");
+    command.flag("--json", arguments->json, "With --streams, as JSON: a list with an object a frame");
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

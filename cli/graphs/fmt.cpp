@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/report.h"
+#include "cli/graphs/commands.h"
 #include "engine/base/text.h"
 #include "engine/graph/read_text.h"
 #include "engine/io/text_file.h"
@@ -54,16 +54,13 @@ int run(const FmtArguments& arguments) {
 
 }  // namespace
 
-void add_fmt(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand("fmt", "Lay graph files out as they should be");
+void add_fmt(const Command& program) {
+    const Command command = program.add("fmt", "Lay graph files out as they should be");
     const auto arguments = std::make_shared<FmtArguments>();
-    command
-        .add_option("FILE", arguments->files,
-                    "Files, changed in place; - for standard input to standard output")
-        ->required()
-        ->type_name("");
-    command.add_flag("--check", arguments->check, "Change nothing: tell which would be, with status 1");
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command.argument("FILE", arguments->files,
+                     "Files, changed in place; - for standard input to standard output");
+    command.flag("--check", arguments->check, "Change nothing: tell which would be, with status 1");
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

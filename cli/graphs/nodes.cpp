@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/report.h"
+#include "cli/graphs/commands.h"
 #include "engine/graph/group.h"
 #include "engine/node/reference.h"
 #include "engine/node/registry.h"
@@ -42,15 +42,13 @@ int run(const NodesArguments& arguments) {
 
 }  // namespace
 
-void add_nodes(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand("nodes", "The node reference: all types, or one in full");
+void add_nodes(const Command& program) {
+    const Command command = program.add("nodes", "The node reference: all types, or one in full");
     const auto arguments = std::make_shared<NodesArguments>();
-    CLI::Option* type =
-        command.add_option("TYPE", arguments->type, "A node type, or the file of a group")->type_name("");
-    CLI::Option* markdown =
-        command.add_flag("--markdown", arguments->markdown, "The whole reference as Markdown");
-    markdown->excludes(type);
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    const Option type =
+        command.argument("TYPE", arguments->type, "A node type, or the file of a group").optional();
+    command.flag("--markdown", arguments->markdown, "The whole reference as Markdown").excludes(type);
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

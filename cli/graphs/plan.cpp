@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/plan/plan.h"
 
-#include "cli/common/commands.h"
 #include "cli/common/frames.h"
 #include "cli/common/options.h"
 #include "cli/common/report.h"
+#include "cli/graphs/commands.h"
 #include "cli/graphs/plan_json.h"
 #include "engine/plan/memory.h"
 
@@ -56,17 +56,15 @@ int run(const GraphArguments& arguments, bool as_json) {
 
 }  // namespace
 
-void add_plan(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand(
-        "plan", "Tell what a render will do: windows, channels read, sweeps, tiles, memory");
+void add_plan(const Command& program) {
+    const Command command =
+        program.add("plan", "Tell what a render will do: windows, channels read, sweeps, tiles, memory");
     const auto arguments = std::make_shared<GraphArguments>();
     add_graph_options(command, *arguments);
     add_machine_options(command, *arguments);
     const auto as_json = std::make_shared<bool>(false);
-    command.add_flag("--json", *as_json, "As JSON: a list with an object a frame");
-    command.callback([&chosen, arguments, as_json] {
-        chosen = [arguments, as_json] { return run(*arguments, *as_json); };
-    });
+    command.flag("--json", *as_json, "As JSON: a list with an object a frame");
+    command.runs([arguments, as_json] { return run(*arguments, *as_json); });
 }
 
 }  // namespace keyline::cli

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/report.h"
+#include "cli/graphs/commands.h"
 #include "engine/base/text.h"
 #include "engine/io/text_file.h"
 #include "engine/node/reference.h"
@@ -29,12 +29,12 @@ int run(const std::string& folder) {
 
 }  // namespace
 
-void add_schema(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand("schema", "The JSON Schema of graph files, for editors");
+void add_schema(const Command& program) {
+    const Command command = program.add("schema", "The JSON Schema of graph files, for editors");
     const auto folder = std::make_shared<std::string>();
-    add_value_option(command, "--install", *folder, "DIR",
-                     fmt::format("Write it into this folder, as {}, instead of printing it", kFileName));
-    command.callback([&chosen, folder] { chosen = [folder] { return run(*folder); }; });
+    command.option("--install", *folder, "DIR",
+                   fmt::format("Write it into this folder, as {}, instead of printing it", kFileName));
+    command.runs([folder] { return run(*folder); });
 }
 
 }  // namespace keyline::cli

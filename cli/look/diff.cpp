@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/report.h"
+#include "cli/look/commands.h"
 #include "cli/look/diff_report.h"
 #include "engine/base/text.h"
 #include "engine/io/describe_image.h"
@@ -158,26 +158,25 @@ int run(const DiffArguments& arguments) {
 
 }  // namespace
 
-void add_diff(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand(
+void add_diff(const Command& program) {
+    const Command command = program.add(
         "diff", "What two images differ in; the status is 0 where they are the same, 1 where they differ");
     const auto arguments = std::make_shared<DiffArguments>();
-    command.add_option("A", arguments->a, "An image file")->required()->type_name("");
-    command.add_option("B", arguments->b, "The one to compare it with")->required()->type_name("");
-    add_value_option(command, "--layer", arguments->layer, "NAME",
-                     "Compare just this layer or channel, named as in a graph after the colon");
-    add_value_option(command, "--tolerance", arguments->tolerance, "E",
-                     "Samples that are no further apart are the same; ids never");
-    add_value_option(command, "--relative", arguments->relative, "R",
-                     "Nor are those that are no further apart than this share of the larger one");
-    add_value_option(command, "--heat", arguments->heat, "FILE",
-                     "Write where the errors are, as a picture: the largest of a pixel's channels, or FLIP");
-    command.add_flag(
-        "--flip", arguments->flip,
-        "Tell how different R G B look, by FLIP: 8 and 16 bits as sRGB, floats as light up to 1");
-    command.add_flag("--metadata", arguments->metadata, "Attributes that differ count as a difference");
-    command.add_flag("--json", arguments->json, "As JSON");
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command.argument("A", arguments->a, "An image file");
+    command.argument("B", arguments->b, "The one to compare it with");
+    command.option("--layer", arguments->layer, "NAME",
+                   "Compare just this layer or channel, named as in a graph after the colon");
+    command.option("--tolerance", arguments->tolerance, "E",
+                   "Samples that are no further apart are the same; ids never");
+    command.option("--relative", arguments->relative, "R",
+                   "Nor are those that are no further apart than this share of the larger one");
+    command.option("--heat", arguments->heat, "FILE",
+                   "Write where the errors are, as a picture: the largest of a pixel's channels, or FLIP");
+    command.flag("--flip", arguments->flip,
+                 "Tell how different R G B look, by FLIP: 8 and 16 bits as sRGB, floats as light up to 1");
+    command.flag("--metadata", arguments->metadata, "Attributes that differ count as a difference");
+    command.flag("--json", arguments->json, "As JSON");
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

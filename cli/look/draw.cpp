@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/frames.h"
 #include "cli/common/report.h"
+#include "cli/look/commands.h"
 #include "cli/look/diagram.h"
 #include "cli/look/pictures.h"
 #include "cli/look/temporary_folder.h"
@@ -97,18 +97,16 @@ int run(const DrawArguments& arguments) {
 
 }  // namespace
 
-void add_draw(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand(
+void add_draw(const Command& program) {
+    const Command command = program.add(
         "draw", "Draw the graph itself: its nodes with what they make, laid out from left to right");
     const auto arguments = std::make_shared<DrawArguments>();
-    command.add_option("GRAPH", arguments->graph.graph, "The graph file")->required()->type_name("");
-    command.add_option("-o,--drawing", arguments->file, "The drawing, a file .svg")
-        ->required()
-        ->type_name("FILE");
-    command.add_flag("--no-pictures", arguments->no_pictures, "Without pictures of what the nodes make");
+    command.argument("GRAPH", arguments->graph.graph, "The graph file");
+    command.option("-o,--drawing", arguments->file, "FILE", "The drawing, a file .svg").required();
+    command.flag("--no-pictures", arguments->no_pictures, "Without pictures of what the nodes make");
     add_graph_value_options(command, arguments->graph);
     add_machine_options(command, arguments->graph);
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

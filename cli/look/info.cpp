@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/report.h"
+#include "cli/look/commands.h"
 #include "cli/look/info_report.h"
 #include "cli/look/sequences.h"
 #include "engine/base/text.h"
@@ -139,22 +139,19 @@ int run(const InfoArguments& arguments) {
 
 }  // namespace
 
-void add_info(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand("info", "What image files hold");
+void add_info(const Command& program) {
+    const Command command = program.add("info", "What image files hold");
     const auto arguments = std::make_shared<InfoArguments>();
-    command.add_option("FILE", arguments->files, "Image files; street.####.exr for all frames of a sequence")
-        ->required()
-        ->type_name("");
-    command.add_flag("--all", arguments->all, "Storage and attributes too, file by file");
-    command.add_flag("--stats", arguments->statistics,
-                     "The least, mean and largest sample of each channel, and how many are negative, "
-                     "infinite or NaN");
-    command.add_flag("--objects", arguments->objects,
-                     "The objects of Cryptomattes: pixels, area and the window that holds them");
-    add_value_option(command, "--at", arguments->at, "X,Y",
-                     "Every channel of one pixel, and the objects that it shows");
-    command.add_flag("--json", arguments->json, "As JSON: a list with an object a file");
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command.argument("FILE", arguments->files, "Image files; street.####.exr for all frames of a sequence");
+    command.flag("--all", arguments->all, "Storage and attributes too, file by file");
+    command.flag("--stats", arguments->statistics,
+                 "The least, mean and largest sample of each channel, and how many are negative, "
+                 "infinite or NaN");
+    command.flag("--objects", arguments->objects,
+                 "The objects of Cryptomattes: pixels, area and the window that holds them");
+    command.option("--at", arguments->at, "X,Y", "Every channel of one pixel, and the objects that it shows");
+    command.flag("--json", arguments->json, "As JSON: a list with an object a file");
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/options.h"
 #include "cli/common/report.h"
+#include "cli/look/commands.h"
 #include "engine/base/text.h"
 #include "engine/io/text_file.h"
 #include "engine/json/json_writer.h"
@@ -193,27 +193,22 @@ int run(const MeasureArguments& a) {
 
 }  // namespace
 
-void add_measure(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand("measure", "How good a drawing's lines are");
+void add_measure(const Command& program) {
+    const Command command = program.add("measure", "How good a drawing's lines are");
     const auto a = std::make_shared<MeasureArguments>();
-    command.add_option("STROKES", a->drawing, "The drawing, as 'strokes_write' makes it")
-        ->required()
-        ->type_name("");
-    command.add_option("TRUTH", a->truth, "Lines that are known to be true, as strokes too")->type_name("");
-    command.add_option("--within", a->accuracy.within, "How far a line may be from the true one")
-        ->type_name("PIXELS")
-        ->check(CLI::Range(0.01, 100.0));
-    command.add_option("--angle", a->accuracy.angle, "How far it may turn away from it")
-        ->type_name("DEGREES")
-        ->check(CLI::Range(0.0, 90.0));
-    add_value_option(command, "--frames", a->frames, "SPEC",
-                     "Hold these frames against each other, as 1-24; STROKES names them by #");
-    add_value_option(command, "--vector", a->vector, "FILE[:LAYER]",
-                     "How pixels move: images with a layer of X Y Z W, as Cycles' Vector");
-    add_value_option(command, "--extra", a->extra, "FILE", "Write what is drawn and not true, as strokes");
-    add_value_option(command, "--missed", a->missed, "FILE", "Write what is true and not drawn, as strokes");
-    command.add_flag("--json", a->json, "As JSON");
-    command.callback([&chosen, a] { chosen = [a] { return run(*a); }; });
+    command.argument("STROKES", a->drawing, "The drawing, as 'strokes_write' makes it");
+    command.argument("TRUTH", a->truth, "Lines that are known to be true, as strokes too").optional();
+    command.option("--within", a->accuracy.within, {0.01, 100}, "PIXELS",
+                   "How far a line may be from the true one");
+    command.option("--angle", a->accuracy.angle, {0, 90}, "DEGREES", "How far it may turn away from it");
+    command.option("--frames", a->frames, "SPEC",
+                   "Hold these frames against each other, as 1-24; STROKES names them by #");
+    command.option("--vector", a->vector, "FILE[:LAYER]",
+                   "How pixels move: images with a layer of X Y Z W, as Cycles' Vector");
+    command.option("--extra", a->extra, "FILE", "Write what is drawn and not true, as strokes");
+    command.option("--missed", a->missed, "FILE", "Write what is true and not drawn, as strokes");
+    command.flag("--json", a->json, "As JSON");
+    command.runs([a] { return run(*a); });
 }
 
 }  // namespace keyline::cli

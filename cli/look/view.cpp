@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/report.h"
+#include "cli/look/commands.h"
 #include "cli/look/pictures.h"
 #include "cli/look/temporary_folder.h"
 #include "cli/look/terminal_picture.h"
@@ -135,25 +135,24 @@ int run(const ViewArguments& arguments) {
 
 }  // namespace
 
-void add_view(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand(
-        "view", "Show what nodes make, whatever it is: a picture, or a sheet of several nodes");
+void add_view(const Command& program) {
+    const Command command =
+        program.add("view", "Show what nodes make, whatever it is: a picture, or a sheet of several nodes");
     const auto arguments = std::make_shared<ViewArguments>();
-    command.add_option("GRAPH", arguments->graph.graph, "The graph file")->required()->type_name("");
-    command.add_option("NODE", arguments->nodes, "Nodes, or NODE:LAYER; all of them when absent")
-        ->type_name("");
-    add_value_option(command, "-o,--picture", arguments->file, "FILE",
-                     "Write the picture; it is shown in the terminal when absent");
-    add_value_option(command, "--channel", arguments->channel, "NAME",
-                     "Show this layer or channel of each node, not its colour");
-    add_value_option(
-        command, "--range", arguments->range, "A,B",
+    command.argument("GRAPH", arguments->graph.graph, "The graph file");
+    command.argument("NODE", arguments->nodes, "Nodes, or NODE:LAYER; all of them when absent").optional();
+    command.option("-o,--picture", arguments->file, "FILE",
+                   "Write the picture; it is shown in the terminal when absent");
+    command.option("--channel", arguments->channel, "NAME",
+                   "Show this layer or channel of each node, not its colour");
+    command.option(
+        "--range", arguments->range, "A,B",
         "What numbers are shown black and white; auto, each frame's least and largest, when absent");
-    add_value_option(command, "--as", arguments->as, "KIND",
-                     "How the terminal shows pictures: kitty, iterm, sixel or blocks; found out when absent");
+    command.option("--as", arguments->as, "KIND",
+                   "How the terminal shows pictures: kitty, iterm, sixel or blocks; found out when absent");
     add_graph_value_options(command, arguments->graph);
     add_machine_options(command, arguments->graph);
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli

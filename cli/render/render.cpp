@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/common/commands.h"
 #include "cli/common/frames.h"
 #include "cli/common/options.h"
 #include "cli/common/report.h"
 #include "cli/common/signals.h"
+#include "cli/render/commands.h"
 #include "cli/render/progress.h"
 #include "engine/run/one_tile.h"
 
@@ -199,33 +199,32 @@ int run(const RenderArguments& arguments) {
 
 }  // namespace
 
-void add_render(CLI::App& program, Chosen& chosen) {
-    CLI::App& command = *program.add_subcommand("render", "Render frames of a graph");
+void add_render(const Command& program) {
+    const Command command = program.add("render", "Render frames of a graph");
     const auto arguments = std::make_shared<RenderArguments>();
     add_graph_options(command, arguments->graph);
     add_machine_options(command, arguments->graph);
-    command.add_flag(
-        "--skip-existing", arguments->skip_existing,
-        "Leave finished outputs alone: those that open and have the planned windows and channels");
-    command.add_flag("--stale", arguments->only_stale,
-                     "Make only what 'keyline verify' finds not to be current");
-    command.add_flag("--no-provenance", arguments->no_provenance,
-                     "Leave out of the outputs what they were made of: equal pixels are equal files");
-    command.add_flag("--keep-going", arguments->keep_going, "Go on with the next frame after one fails");
-    add_value_option(command, "--profile", arguments->profile, "FILE",
-                     "Print where the time went and write it to FILE as a Chrome trace");
-    add_value_option(
-        command, "--progress", arguments->progress, "MODE",
+    command.flag("--skip-existing", arguments->skip_existing,
+                 "Leave finished outputs alone: those that open and have the planned windows and channels");
+    command.flag("--stale", arguments->only_stale, "Make only what 'keyline verify' finds not to be current");
+    command.flag("--no-provenance", arguments->no_provenance,
+                 "Leave out of the outputs what they were made of: equal pixels are equal files");
+    command.flag("--keep-going", arguments->keep_going, "Go on with the next frame after one fails");
+    command.option("--profile", arguments->profile, "FILE",
+                   "Print where the time went and write it to FILE as a Chrome trace");
+    command.option(
+        "--progress", arguments->progress, "MODE",
         "auto (what the render farm's manager reads where it is recognised, else a bar on a "
         "terminal, else lines), bar, lines, json, none, openjd, afanasy, tractor, deadline or flamenco");
-    add_value_option(
-        command, "--heartbeat", arguments->heartbeat, "SECONDS",
+    command.option(
+        "--heartbeat", arguments->heartbeat, "SECONDS",
         "Say at least so often how far a frame is; 30 when absent, 10 for openjd, afanasy, tractor and "
         "deadline");
-    add_value_option(command, "--only-tile", arguments->only_tile, "NODE@X,Y,WIDTH,HEIGHT",
-                     "Compute this alone, on one thread, and write nothing")
-        ->group("");  // not listed: an internal error names it
-    command.callback([&chosen, arguments] { chosen = [arguments] { return run(*arguments); }; });
+    command
+        .option("--only-tile", arguments->only_tile, "NODE@X,Y,WIDTH,HEIGHT",
+                "Compute this alone, on one thread, and write nothing")
+        .hidden();  // not listed: an internal error names it
+    command.runs([arguments] { return run(*arguments); });
 }
 
 }  // namespace keyline::cli
