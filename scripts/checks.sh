@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 The Keyline Authors
 # SPDX-License-Identifier: Apache-2.0
-# What a change is held to beside the tests of scripts/test.sh: the project's format, clang's warnings and the tests with
-# assertions in clang's debug build, clang-tidy on what changed, and the engine, contract and fuzz tests under the
-# address and undefined-behaviour sanitizers.  Says how long each took.  Takes the commit that the change starts from.
+# What a change is held to beside the tests of scripts/test.sh: the project's format, clang's warnings, the tests with
+# assertions under the address and undefined-behaviour sanitizers, the fuzzers, and clang-tidy on what changed.  Says how
+# long each took.  Takes the commit that the change starts from.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 base=${1:-HEAD~4}
@@ -26,14 +26,19 @@ changed() { git diff --name-only --diff-filter=d "$base" -- '*.cpp' | grep -v '^
 
 format() { sources | xargs clang-format --dry-run -Werror; }
 
-# The benchmarks too, which nothing else compiles.  Without precompiled headers, so that each source is seen to include
-# what it needs.  A little optimised: the contract tests take five minutes of CPU otherwise.
+# One build for three questions: what clang warns of, what the assertions say, and what the address and undefined-behaviour
+# sanitizers find.  Without precompiled headers, so that each source is seen to include what it needs; the benchmarks too,
+# which nothing else compiles.  A little optimised: the contract tests take five minutes of CPU otherwise.
 clang_debug() {
   cmake --preset debug -B build/clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
-    -DKEYLINE_TESTS=ON -DKEYLINE_BENCHMARKS=ON >/dev/null
+    -DKEYLINE_SANITIZE="address;undefined" -DKEYLINE_TESTS=ON -DKEYLINE_BENCHMARKS=ON >/dev/null
   cmake --build build/clang
-  ctest --test-dir build/clang --output-on-failure --parallel "$(nproc)" \
-    -R 'test_(structure|errors|engine|contract|nodes|simd|io|image_io)'
+}
+
+debug_tests() {
+  LSAN_OPTIONS=suppressions=$PWD/cmake/lsan-suppressions.txt \
+    ctest --test-dir build/clang --output-on-failure --parallel "$(nproc)" \
+    -R 'test_(structure|errors|engine|contract|nodes|simd|io|image_io)|fuzz'
 }
 
 tidy() {
@@ -46,14 +51,7 @@ tidy() {
     xargs --no-run-if-empty -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2> >(grep -v 'warnings generated' >&2)
 }
 
-sanitizers() {
-  cmake --preset asan -B build/sanitize -DKEYLINE_SANITIZE="address;undefined" -DKEYLINE_TESTS=ON >/dev/null
-  cmake --build build/sanitize --target test_engine test_contract fuzz_exr fuzz_pictures fuzz_graphs
-  LSAN_OPTIONS=suppressions=$PWD/cmake/lsan-suppressions.txt \
-    ctest --test-dir build/sanitize --output-on-failure --parallel "$(nproc)" -R 'test_engine|test_contract|fuzz'
-}
-
 step "format" format
-step "clang, debug" clang_debug
+step "clang, debug, sanitizers: build" clang_debug
+step "clang, debug, sanitizers: tests" debug_tests
 step "clang-tidy on what changed" tidy
-step "address and undefined-behaviour sanitizers" sanitizers
