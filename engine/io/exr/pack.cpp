@@ -18,7 +18,12 @@ namespace {
 constexpr int kDeflateLevel = 2;
 
 // Scratch memory that PIZ wants whatever the size of a chunk.
-constexpr std::size_t kPizTables = std::size_t{1} << 20;
+constexpr std::size_t kPizTables = std::size_t{3} << 19;
+
+// What B44 makes of 4 × 4 samples of type half, which were 32 bytes.
+constexpr std::size_t kB44Block = 14;
+
+bool is_b44(Compression c) { return c == Compression::kB44 || c == Compression::kB44a; }
 
 // A helper that packs, beside what a chunk needs: DWA's tables and its share of the library's pages.
 constexpr std::size_t kPackingProcess = std::size_t{10} << 20;
@@ -192,8 +197,20 @@ std::size_t Packer::memory(const Layout& layout) {
         layout.channels, [](const StoredChannel& c) { return c.type == SampleType::kFloat; });
     if (needs_helper(layout.compression, layout.channels))
         return (4 + (has_float ? 5 : 3)) * bytes + kPackingProcess;
-    if (uses_core(layout)) return 4 * bytes + (layout.compression == Compression::kPiz ? kPizTables : 0);
+    if (is_b44(layout.compression)) return bytes + 2 * most_packed(layout);
+    if (uses_core(layout)) return 3 * bytes + (layout.compression == Compression::kPiz ? kPizTables : 0);
     return 3 * bytes;
+}
+
+std::size_t Packer::most_packed(const Layout& layout) {
+    const int rows = std::min(layout.rows_per_chunk(), layout.data_window.height());
+    const std::size_t width = static_cast<std::size_t>(layout.data_window.width());
+    std::size_t sum = 0;
+    for (const StoredChannel& c : layout.channels)
+        sum += is_b44(layout.compression) && c.type == SampleType::kHalf
+                   ? (width + 3) / 4 * ((static_cast<std::size_t>(rows) + 3) / 4) * kB44Block
+                   : width * static_cast<std::size_t>(rows) * sample_size(c.type);
+    return sum;
 }
 
 }  // namespace keyline::exr

@@ -51,6 +51,9 @@ public:
     // Bytes that pack() needs for itself and keeps, its helper process included.
     static std::size_t memory(const Layout& layout);
 
+    // Bytes that a packed chunk has at most: what can't be compressed is as large as it was.
+    static std::size_t most_packed(const Layout& layout);
+
     // Whether OpenEXRCore compresses this.
     static bool uses_core(const Layout& layout);
 

@@ -219,12 +219,10 @@ Layout layout_of(const SinkSpec& spec) {
 
 SinkMemory memory_of(const SinkSpec& spec) {
     const Layout layout = layout_of(spec);
-    std::size_t row = 0;
-    for (const StoredChannel& c : layout.channels)
-        row += sample_size(c.type) * static_cast<std::size_t>(layout.data_window.width());
-    // An encoded chunk waits for those before it; what can't be compressed is as large as it was.
+    // Encoded chunks wait for those before them.
     const int rows = std::min(rows_at_once(layout), layout.data_window.height());
-    return {Packer::memory(layout) + static_cast<std::size_t>(rows) * row,
+    const int chunks = (rows + layout.rows_per_chunk() - 1) / layout.rows_per_chunk();
+    return {Packer::memory(layout) + static_cast<std::size_t>(chunks) * Packer::most_packed(layout),
             2 * sizeof(uint64_t) * static_cast<std::size_t>(layout.chunks())};
 }
 
