@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/author/commands.h"
 #include "cli/common/command_line.h"
 #include "cli/common/machine.h"
 #include "cli/common/report.h"
@@ -31,6 +32,7 @@ std::string version_text() {
 }
 
 void add_commands(const Command& program) {
+    add_new(program);
     add_render(program);
     add_check(program);
     add_plan(program);
@@ -46,6 +48,7 @@ void add_commands(const Command& program) {
     add_verify(program);
     add_provenance(program);
     add_submit(program);
+    add_completion(program);
 }
 
 int run(int argc, char** argv) {

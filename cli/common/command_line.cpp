@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/command_line.h"
 
+#include "cli/common/completion.h"
+#include "cli/common/report.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 
@@ -31,6 +33,11 @@ const Option& Option::hidden() const {
 
 const Option& Option::excludes(const Option& other) const {
     option_->excludes(other.option_);
+    return *this;
+}
+
+const Option& Option::of_words(const std::string& words) const {
+    option_->type_name(words);
     return *this;
 }
 
@@ -210,6 +217,8 @@ Command CommandLine::program() { return {state_->app, state_->chosen}; }
 void CommandLine::add_topic(const std::string& topic, const Action& print) { state_->topics[topic] = print; }
 
 int CommandLine::run(int argc, char** argv) {
+    if (argc > 1 && argv[1] == std::string_view("complete"))
+        return print_result(completions(state_->app, {argv + 2, argv + argc})), 0;
     if (argc == 3 && argv[1] == std::string_view("help"))
         if (const auto topic = state_->topics.find(argv[2]); topic != state_->topics.end())
             return topic->second();

@@ -30,6 +30,7 @@ public:
     const Option& optional() const;
     const Option& hidden() const;  // known, and not listed by --help
     const Option& excludes(const Option& other) const;
+    const Option& of_words(const std::string& words) const;  // "bash|zsh|fish", which is what --help says
 
 private:
     CLI::Option* option_;
@@ -52,7 +53,8 @@ public:
     Option argument(const std::string& name, std::string& value, const std::string& help) const;
     Option argument(const std::string& name, std::vector<std::string>& values, const std::string& help) const;
 
-    // By its name, "--frames" or "-o,--picture", and optional; VALUE_NAME is what --help calls the value.
+    // By its name, "--frames" or "-o,--picture", and optional; VALUE_NAME is what --help calls the value,
+    // and how shells know what to offer: "FILE", "NODE", "one|of|these".
     Option option(const std::string& name, std::string& value, const std::string& value_name,
                   const std::string& help) const;
     Option option(const std::string& name, double& value, NumberRange range, const std::string& value_name,
@@ -89,8 +91,9 @@ public:
     // What `keyline help TOPIC` prints, for a topic that is no command.
     void add_topic(const std::string& topic, const Action& print);
 
-    // Reads the line and does what it says.  Throws Failure where it can't be read: with the nearest word for
-    // what nothing knows.
+    // Reads the line and does what it says; one that begins with "complete" is a shell that asks what may
+    // come next (completion.h).  Throws Failure where it can't be read: with the nearest word for what
+    // nothing knows.
     int run(int argc, char** argv);
 
 private:

@@ -20,18 +20,6 @@ namespace {
 
 constexpr std::size_t kMostText = 34;  // of a parameter's value, in characters
 
-std::string for_xml(std::string_view text) {
-    std::string out;
-    for (const char c : escaped(text)) switch (c) {
-            case '&': out += "&amp;"; break;
-            case '<': out += "&lt;"; break;
-            case '>': out += "&gt;"; break;
-            case '"': out += "&quot;"; break;
-            default: out += c;
-        }
-    return out;
-}
-
 std::string cut(const std::string& text, std::size_t most) {
     if (text.size() <= most) return text;
     std::size_t end = most;  // not inside of a character

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/options.h"
 #include "cli/common/report.h"
+#include "cli/common/sequences.h"
 #include "cli/look/commands.h"
 #include "cli/look/info_report.h"
-#include "cli/look/sequences.h"
 #include "engine/base/text.h"
 #include "engine/look/views.h"
 #include "engine/params/frames.h"

@@ -148,8 +148,8 @@ void add_view(const Command& program) {
     command.option(
         "--range", arguments->range, "A,B",
         "What numbers are shown black and white; auto, each frame's least and largest, when absent");
-    command.option("--as", arguments->as, "KIND",
-                   "How the terminal shows pictures: kitty, iterm, sixel or blocks; found out when absent");
+    command.option("--as", arguments->as, "kitty|iterm|sixel|blocks",
+                   "How the terminal shows pictures; found out when absent");
     add_graph_value_options(command, arguments->graph);
     add_machine_options(command, arguments->graph);
     command.runs([arguments] { return run(*arguments); });

@@ -77,4 +77,16 @@ std::string escaped(std::string_view text, Escapes escapes) {
     return out;
 }
 
+std::string for_xml(std::string_view text) {
+    std::string out;
+    for (const char c : escaped(text)) switch (c) {
+            case '&': out += "&amp;"; break;
+            case '<': out += "&lt;"; break;
+            case '>': out += "&gt;"; break;
+            case '"': out += "&quot;"; break;
+            default: out += c;
+        }
+    return out;
+}
+
 }  // namespace keyline

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-// Text that others wrote (names in files, what libraries say) where it is shown or put into JSON.
+// Text that others wrote (names in files, what libraries say) where it is shown or put into JSON or XML.
 
 namespace KEYLINE_API keyline {
 
@@ -24,5 +24,8 @@ enum class Escapes {
 // direction of what follows and bytes that are not UTF-8 are escaped, as a terminal may obey them.  What is
 // escaped already stays as it is, unless it is for JSON.
 std::string escaped(std::string_view text, Escapes escapes = Escapes::kShown);
+
+// For XML, as text and in attributes.  What no XML may hold is shown as escapes are.
+std::string for_xml(std::string_view text);
 
 }  // namespace keyline

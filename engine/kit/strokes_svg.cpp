@@ -15,19 +15,6 @@ namespace keyline {
 
 namespace {
 
-// As text and in attributes.  What no XML may hold is shown as escapes are.
-std::string xml(std::string_view text) {
-    std::string out;
-    for (const char c : escaped(text)) switch (c) {
-            case '&': out += "&amp;"; break;
-            case '<': out += "&lt;"; break;
-            case '>': out += "&gt;"; break;
-            case '"': out += "&quot;"; break;
-            default: out += c;
-        }
-    return out;
-}
-
 // sRGB, as "#rrggbb".
 std::string hexadecimal(const Color& color) {
     const auto coded = [](double linear) {
@@ -117,7 +104,7 @@ private:
     }
 
     void add_layer(const std::string& layer) {
-        out_ += fmt::format("\n<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\">", xml(layer));
+        out_ += fmt::format("\n<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\">", for_xml(layer));
         for (std::size_t i = strokes_.strokes.size(); i-- > 0;)
             if (layer_of(strokes_.strokes[i]) == layer) add_path(strokes_.strokes[i], i);
         out_ += "\n</g>";
@@ -129,7 +116,7 @@ private:
         const std::string color = hexadecimal(s.color.value_or(style_.color)),
                           opacity = number(mean(s, &StrokeVertex::opacity));
         out_ += fmt::format("\n<path id=\"stroke{}\" data-kind=\"{}\" data-owner=\"{}\" data-behind=\"{}\" ",
-                            index, word_of(s.kind), xml(name(s.near)), xml(name(s.far)));
+                            index, word_of(s.kind), for_xml(name(s.near)), for_xml(name(s.far)));
         if (style_.width == SvgStyle::Width::kOutline)
             out_ += fmt::format("fill=\"{}\" fill-opacity=\"{}\" fill-rule=\"nonzero\" d=\"{}\"/>", color,
                                 opacity, d);

@@ -119,14 +119,15 @@ const std::vector<Folder> kFolders = {
      {"engine/json", "engine/color", "engine/io", "engine/params", "engine/node", "engine/graph",
       "engine/plan", "engine/run"},
      {"CLI/"}},
+    {"cli/author", kOfCommands, {}},
     {"cli/graphs", kOfCommands, {}},
     {"cli/render", kOfCommands, {}},
     {"cli/farm", kOfCommands, {}},
     {"cli/look", kOfCommands, {}},
     {"cli/lsp", kOfCommands, {}},
     {"cli",
-     {"cli/common", "cli/graphs", "cli/render", "cli/farm", "cli/look", "cli/lsp", "engine/color",
-      "engine/io"},
+     {"cli/common", "cli/author", "cli/graphs", "cli/render", "cli/farm", "cli/look", "cli/lsp",
+      "engine/color", "engine/io"},
      {"CLI/"}},
 };
 

@@ -36,6 +36,10 @@ TEST(Escaped, ForJson) {
 }
 
 // Names and libraries' texts come into errors without quotes too.
+TEST(ForXml, HoldsNothingThatXmlWouldReadAsItsOwn) {
+    EXPECT_EQ(for_xml("a < b & \"c\" > \x01é"), "a &lt; b &amp; &quot;c&quot; &gt; \\x01é");
+}
+
 TEST(Escaped, AnErrorIsOneLineOfText) {
     const Error e{ErrorKind::kInput, {"g\x1b.json", 1, 2}, "node 'a'", "a\nb\xe9.png: bad\x9b", "do\rso"};
     EXPECT_EQ(e.text(), "g\\x1b.json:1:2: error: node 'a': a\\nb\\xe9.png: bad\\x9b; do\\x0dso");

@@ -122,6 +122,11 @@ TEST_F(Documents, TheGraphAndCommandsOfThePageOnLinesWork) {
     EXPECT_LT(told["form"]["ripple"], 0.05);
 }
 
+TEST_F(Documents, TheWayFromAFileToAPictureIsOne) {
+    expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "first_graph.md"));
+    EXPECT_TRUE(exists("out/night.png"));
+}
+
 TEST_F(Documents, TheManualsCommandsWork) {
     expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "graphs.md"));
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/look/sequences.h"
+#include "cli/common/sequences.h"
 
 #include "engine/base/error.h"
 #include "engine/params/file_name.h"
@@ -62,6 +62,11 @@ std::vector<std::string> files_of(const std::string& name) {
     for (const int frame : pattern.frames_on_disk()) out.push_back(pattern.at(frame).string());
     if (out.empty()) fail(ErrorKind::kInput, fmt::format("{}: no frame of it is on disk", in_quotes(name)));
     return out;
+}
+
+std::string with_frame_number(const std::string& file) {
+    const auto n = numbered(file);
+    return n ? n->name : file;
 }
 
 std::vector<Sequence> fold_sequences(const std::vector<std::string>& files,

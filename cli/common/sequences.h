@@ -13,6 +13,9 @@ namespace keyline::cli {
 // there is no file of just that name.  Throws Failure (kInput) where none is there.
 std::vector<std::string> files_of(const std::string& name);
 
+// The name with # for the digits that it holds last, before its extension; the name itself without such.
+std::string with_frame_number(const std::string& file);
+
 // Files that differ in the number that their names hold last, and in nothing that is told of them.
 struct Sequence {
     std::string name;          // "street.####.exr"; the file's own where it is the only one
