@@ -96,6 +96,7 @@ public:
 
     // The borders of what is covered go to the cells.  Returns the winding on the right.
     int add(std::span<Edge> edges, int winding) {
+        if (winding == 0 && is_simple(edges)) return add_whole(edges);
         left_ = winding;
         find_heights(edges);
         std::ranges::sort(edges, {}, &Edge::y0);
@@ -112,6 +113,50 @@ public:
     }
 
 private:
+    // Whether on no height there is more than one edge into what is covered, and each is left of those out of
+    // it: then nothing is covered twice, and the edges are the borders as they are.
+    bool is_simple(std::span<const Edge> edges) {
+        if (edges.size() > kFew) return false;
+        Heights taken{};
+        for (const Edge& into : edges) {
+            if (into.sign < 0) continue;
+            if (!take(into.y0, into.y1, taken)) return false;
+            for (const Edge& out : edges)
+                if (out.sign < 0 && !is_left(into, out)) return false;
+        }
+        return true;
+    }
+
+    using Heights = std::array<uint64_t, kOne / 64>;  // a bit for each of a row
+
+    // Whether none of those from `top` up to `bottom` was taken before.
+    static bool take(int64_t top, int64_t bottom, Heights& taken) {
+        for (int64_t y = top; y < bottom;) {
+            const int64_t end = std::min(bottom, (y / 64 + 1) * 64);
+            const uint64_t bits = (~uint64_t{0} >> (64 - (end - y))) << (y % 64);
+            uint64_t& word = taken[static_cast<std::size_t>(y / 64)];
+            if ((word & bits) != 0) return false;
+            word |= bits;
+            y = end;
+        }
+        return true;
+    }
+
+    static bool is_left(const Edge& a, const Edge& b) {
+        if (std::max(a.x0, a.x1) <= std::min(b.x0, b.x1)) return true;
+        const int64_t top = std::max(a.y0, b.y0), bottom = std::min(a.y1, b.y1);
+        return top >= bottom || (a.x_at(top) <= b.x_at(top) && a.x_at(bottom) <= b.x_at(bottom));
+    }
+
+    int add_whole(std::span<const Edge> edges) {
+        int64_t height = 0;
+        for (const Edge& e : edges) {
+            if (!e.is_level()) cells_.add(e);
+            height += e.sign * (e.y1 - e.y0);
+        }
+        return height != 0 ? 1 : 0;
+    }
+
     void find_heights(std::span<const Edge> edges) {
         heights_.clear();
         for (const Edge& e : edges) heights_.insert(heights_.end(), {e.y0, e.y1});
@@ -141,6 +186,8 @@ private:
         }
         return winding;
     }
+
+    static constexpr std::size_t kFew = 24;
 
     Cells& cells_;
     int left_ = 0;  // the winding there

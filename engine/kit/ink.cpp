@@ -20,24 +20,18 @@ bool is_even(const Stroke& s) {
 class NearestOpacity {
 public:
     NearestOpacity(const Stroke& stroke, const Rect& window) : stroke_(stroke), window_(window) {
-        rows_.resize(static_cast<std::size_t>(window.height()));
         const std::size_t n = stroke.vertices.size();
-        for (std::size_t i = 0; i + (stroke.closed ? 0 : 1) < n; ++i) {
-            const StrokeVertex &a = at(i), &b = at(i + 1);
-            const double reach = reach_of(a, b);
-            const int from = row_of(std::min(a.y, b.y) - reach), to = row_of(std::max(a.y, b.y) + reach);
-            for (int y = from; y <= to && y < window.y1; ++y)
-                rows_[static_cast<std::size_t>(y - window.y0)].push_back(i);
-        }
+        for (std::size_t i = 0; i + (stroke.closed ? 0 : 1) < n; ++i) add(i);
+        std::ranges::sort(near_);
     }
 
     double at_pixel(int x, int y) const {
         const double px = x + 0.5, py = y + 0.5;
         double nearest = std::numeric_limits<double>::infinity(), opacity = 0;
-        for (const std::size_t i : rows_[static_cast<std::size_t>(y - window_.y0)]) {
-            const StrokeVertex &a = at(i), &b = at(i + 1);
-            const double reach = reach_of(a, b);
-            if (px < std::min(a.x, b.x) - reach || px > std::max(a.x, b.x) + reach) continue;
+        const uint64_t cell = cell_at(y, x / kCell);
+        for (auto it = std::ranges::lower_bound(near_, std::pair(cell, std::size_t{0}));
+             it != near_.end() && it->first == cell; ++it) {
+            const StrokeVertex &a = at(it->second), &b = at(it->second + 1);
             const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
             const double along = square > 0 ? ((px - a.x) * dx + (py - a.y) * dy) / square : 0;
             const double t = std::clamp(along, 0.0, 1.0);
@@ -50,18 +44,43 @@ public:
     }
 
 private:
+    static constexpr int kCell = 8;  // pixels of a row
+
+    static uint64_t cell_at(int y, int column) {
+        return uint64_t{static_cast<uint32_t>(y)} << 32 | static_cast<uint32_t>(column);
+    }
+
+    // To the cells in which pixels may be nearest to the way from vertex i on.
+    void add(std::size_t i) {
+        const StrokeVertex &a = at(i), &b = at(i + 1);
+        const double reach = std::max(a.width, b.width) / 2 + 1;
+        const int top = whole(std::min(a.y, b.y) - reach, window_.y0, window_.y1),
+                  bottom = whole(std::max(a.y, b.y) + reach, window_.y0, window_.y1);
+        for (int y = top; y <= bottom; ++y) {
+            // Where it passes the row, and what is in reach of that.
+            const double from = x_at(a, b, y - reach), to = x_at(a, b, y + 1 + reach);
+            const int left = whole(std::min(from, to) - reach, window_.x0, window_.x1),
+                      right = whole(std::max(from, to) + reach, window_.x0, window_.x1);
+            for (int column = left / kCell; column <= right / kCell; ++column)
+                near_.emplace_back(cell_at(y, column), i);
+        }
+    }
+
+    static int whole(double d, int from, int to) {
+        return static_cast<int>(std::clamp(std::floor(d), double(from), double(to - 1)));
+    }
+
+    // On the way from a to b, or where that ends.
+    static double x_at(const StrokeVertex& a, const StrokeVertex& b, double y) {
+        if (a.y == b.y) return y < a.y ? a.x : b.x;
+        return a.x + std::clamp((y - a.y) / (b.y - a.y), 0.0, 1.0) * (b.x - a.x);
+    }
+
     const StrokeVertex& at(std::size_t i) const { return stroke_.vertices[i % stroke_.vertices.size()]; }
-    // The centre of a pixel that is covered lies no farther from the way.
-    static double reach_of(const StrokeVertex& a, const StrokeVertex& b) {
-        return std::max(a.width, b.width) / 2 + 1;
-    }
-    int row_of(double y) const {
-        return static_cast<int>(std::clamp(std::floor(y), double(window_.y0), double(window_.y1)));
-    }
 
     const Stroke& stroke_;
     Rect window_;
-    std::vector<std::vector<std::size_t>> rows_;  // the segments near each row
+    std::vector<std::pair<uint64_t, std::size_t>> near_;  // in the order of cells, then along the way
 };
 
 // Puts the strokes' spans in a row each, in the order in which they come.
@@ -69,10 +88,9 @@ class InkMaker {
 public:
     explicit InkMaker(const Rect& window) { ink_.window = window; }
 
-    void add(const Stroke& stroke, const Ink::Colour& colour) {
+    void add(const Stroke& stroke) {
         const Coverage coverage = coverage_of(outline_of(stroke), ink_.window);
-        const auto index = static_cast<uint32_t>(ink_.colours.size());
-        ink_.colours.push_back(colour);
+        const uint32_t index = strokes_++;
         if (is_even(stroke)) return add_even(coverage, index, static_cast<float>(stroke.vertices[0].opacity));
         const NearestOpacity opacity(stroke, ink_.window);
         for (const CoverageSpan& s : coverage.spans) {
@@ -82,7 +100,8 @@ public:
         }
     }
 
-    Ink take() {
+    Ink take(std::vector<Ink::Colour> colours) {
+        ink_.colours = std::move(colours);
         std::ranges::stable_sort(found_, {}, &Found::y);
         ink_.rows.assign(static_cast<std::size_t>(ink_.window.height()) + 1, 0);
         for (const Found& f : found_) {
@@ -120,6 +139,7 @@ private:
     }
 
     Ink ink_;
+    uint32_t strokes_ = 0;
     std::vector<Found> found_;
 };
 
@@ -130,13 +150,10 @@ std::size_t Ink::bytes() const {
            covers.size() * sizeof(float) + colours.size() * sizeof(Colour);
 }
 
-Ink ink_of(const Strokes& strokes, const Rect& window, const Color& color) {
+Ink ink_of(const Strokes& strokes, const Rect& window, std::vector<Ink::Colour> colours) {
     InkMaker maker(window);
-    for (const Stroke& s : strokes.strokes) {
-        const Color c = s.color.value_or(color);
-        maker.add(s, {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)});
-    }
-    return maker.take();
+    for (const Stroke& s : strokes.strokes) maker.add(s);
+    return maker.take(std::move(colours));
 }
 
 }  // namespace keyline

@@ -44,7 +44,7 @@ struct Ink {
     friend bool operator==(const Ink&, const Ink&) = default;
 };
 
-// Inside `window`.  Strokes without a colour of their own have the one that is given.
-Ink ink_of(const Strokes& strokes, const Rect& window, const Color& color);
+// Inside `window`; a colour for each stroke.
+Ink ink_of(const Strokes& strokes, const Rect& window, std::vector<Ink::Colour> colours);
 
 }  // namespace keyline

@@ -23,9 +23,15 @@ StrokeIndex::Along along_at(const Stroke& s, std::size_t i) {
     return {s.vertices[i].x, s.vertices[i].y, x / length, y / length, s.kind};
 }
 
+// An end that only touches another line is no double.
 std::vector<bool> find_doubles(const Stroke& stroke, const StrokeIndex& before) {
+    const std::size_t n = stroke.vertices.size();
     std::vector<bool> out;
-    for (std::size_t i = 0; i < stroke.vertices.size(); ++i) out.push_back(before.has(along_at(stroke, i)));
+    for (std::size_t i = 0; i < n; ++i) out.push_back(before.has(along_at(stroke, i)));
+    if (!stroke.closed && n > 2) {
+        out[0] = out[0] && out[1];
+        out[n - 1] = out[n - 1] && out[n - 2];
+    }
     return out;
 }
 
@@ -52,6 +58,12 @@ Stroke part_of(const Stroke& stroke, std::size_t begin, std::size_t end) {
     return out;
 }
 
+// Whether a part goes on, at an end that the stroke had, to where lines meet.
+bool leads_on(const Stroke& stroke, std::size_t begin, std::size_t end) {
+    return (begin == 0 && stroke.ends[0] != StrokeEnd::kEnd) ||
+           (end == stroke.vertices.size() && stroke.ends[1] != StrokeEnd::kEnd);
+}
+
 }  // namespace
 
 std::vector<Stroke> without_doubles(std::vector<Stroke> strokes, double within, double least) {
@@ -71,7 +83,7 @@ std::vector<Stroke> without_doubles(std::vector<Stroke> strokes, double within, 
             std::size_t end = begin;
             while (end < n && !doubles[end]) ++end;
             Stroke part = part_of(stroke, begin, end);
-            if (end - begin >= kCrumb && length_of(part) >= least) {
+            if (end - begin >= kCrumb && (leads_on(stroke, begin, end) || length_of(part) >= least)) {
                 kept.add(part);
                 out.push_back(std::move(part));
             }

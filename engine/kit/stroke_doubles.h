@@ -10,7 +10,8 @@
 namespace KEYLINE_API keyline {
 
 // The strokes without those parts that run within `within` pixels along one that stands before it in the
-// list; what is left of a stroke that was cut, and is shorter than `least` pixels, goes too.
+// list; what is left of a stroke that was cut, is shorter than `least` pixels and leads to no other line goes
+// too.
 std::vector<Stroke> without_doubles(std::vector<Stroke> strokes, double within, double least);
 
 }  // namespace keyline

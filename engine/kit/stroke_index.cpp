@@ -13,6 +13,7 @@ namespace {
 constexpr double kCell = 4;       // pixels
 constexpr double kLong = 16;      // pixels: what a search of the cells around can reach
 constexpr double kSameWay = 0.8;  // cosine
+constexpr double kBend = 0.5;  // what is beyond a piece's end for each pixel aside, in bends up to 53 degrees
 
 int64_t cell_of(double v) { return static_cast<int64_t>(std::floor(v / kCell)); }
 
@@ -82,7 +83,10 @@ bool StrokeIndex::is_beside(const Piece& piece, const Along& along) const {
     const double share = std::clamp(along_piece, 0.0, 1.0);
     const double off_x = x - share * piece.dx, off_y = y - share * piece.dy;
     if (off_x * off_x + off_y * off_y >= within_ * within_) return false;
-    const double cosine = (along.tx * piece.dx + along.ty * piece.dy) / std::sqrt(length2);
+    // Before or behind a piece is beside it only in the bend outside of it and the next.
+    const double length = std::sqrt(length2), beyond = std::fabs(along_piece - share) * length;
+    if (beyond > kBend * std::fabs(x * piece.dy - y * piece.dx) / length) return false;
+    const double cosine = (along.tx * piece.dx + along.ty * piece.dy) / length;
     return (along.kind == piece.kind ? cosine : std::fabs(cosine)) > kSameWay;
 }
 

@@ -50,4 +50,13 @@ struct SampleBeside {
     static std::size_t datum_bytes(const Rect&) { return kUsual; }
 };
 
+// Where there is no image: none of its samples.
+struct NoSamples {
+    struct Params {
+        static constexpr auto fields = declare();
+    };
+    static StrokeSamples derive(const Inputs&) { return {}; }
+    static std::size_t datum_bytes() { return 0; }
+};
+
 }  // namespace keyline

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/ink.h"
+#include "engine/kit/stroke_samples.h"
 #include "engine/node/node_adaptor.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace keyline {
 
@@ -19,15 +21,46 @@ constexpr auto words(Overlap) {
 
 struct MakeInk {
     struct Params {
-        Input strokes;
-        static constexpr auto fields = declare(input(&Params::strokes, "strokes", "", data<Strokes>()));
+        Input strokes, red, green, blue;
+        static constexpr auto fields = declare(input(&Params::strokes, "strokes", "", data<Strokes>()),
+                                               input(&Params::red, "red", "", data<StrokeSamples>()),
+                                               input(&Params::green, "green", "", data<StrokeSamples>()),
+                                               input(&Params::blue, "blue", "", data<StrokeSamples>()));
     };
-    Ink derive(const Inputs& in) const { return ink_of(in.datum<Strokes>(0), window, color); }
+    Ink derive(const Inputs& in) const {
+        const auto& strokes = in.datum<Strokes>(0);
+        std::vector<Ink::Colour> colours;
+        for (const Stroke& s : strokes.strokes) {
+            const Color c = s.color.value_or(color);
+            colours.push_back({static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)});
+        }
+        for (int channel = 0; tinted && channel < 3; ++channel)
+            tint(in.datum<StrokeSamples>(1 + channel).samples, index(channel), colours);
+        return ink_of(strokes, window, std::move(colours));
+    }
     // A drawing of 60,000 pixels' length takes 0.7 bytes a pixel of a 4K frame.
     std::size_t datum_bytes() const { return static_cast<std::size_t>(window.area()); }
 
     Rect window;
     Color color;
+    bool tinted = false;
+
+private:
+    // By the mean along each stroke, so that a line has one colour; what is no number changes nothing.
+    static void tint(const std::vector<StrokeSample>& samples, std::size_t channel,
+                     std::vector<Ink::Colour>& colours) {
+        for (std::size_t i = 0; i < samples.size();) {
+            const uint32_t stroke = samples[i].stroke;
+            double sum = 0;
+            int count = 0;
+            for (; i < samples.size() && samples[i].stroke == stroke; ++i)
+                if (std::isfinite(samples[i].value)) {
+                    sum += double{samples[i].value};
+                    ++count;
+                }
+            if (count > 0) colours[stroke][channel] *= static_cast<float>(sum / count);
+        }
+    }
 };
 
 struct LayInk {
@@ -86,7 +119,7 @@ struct DrawStrokes {
         Input in;
         Color color;
         Overlap overlap = Overlap::kUnion;
-        std::optional<Input> like;
+        std::optional<Input> tint, like;
 
         static constexpr auto fields = declare(
             input(&Params::in, "in", "The strokes.", data<Strokes>()),
@@ -94,6 +127,11 @@ struct DrawStrokes {
                   "Of strokes that have none of their own: scene-linear, or sRGB as \"#rrggbb\".",
                   at_least(0).tested_to(8)),
             field(&Params::overlap, "overlap", "What becomes of strokes over each other."),
+            input(
+                &Params::tint, "tint",
+                "Multiplied into the colour: an image, as an albedo, looked up beside each stroke on what it "
+                "belongs to. A stroke has one colour along its way.",
+                colour_without_alpha()),
             input(&Params::like, "like", "An image whose windows to take instead of the strokes' frame."));
     };
     static constexpr std::array outputs{"R", "G", "B", "A"};
@@ -108,11 +146,33 @@ struct DrawStrokes {
             stream.window = like.window;
         }
         stream.window = stream.extent();
-        const Stream ink = add_operation(builder, MakeInk{stream.window, params.color}, {stream});
+        const std::array<Stream, 3> tint = tint_beside(builder, stream);
+        const Stream ink =
+            add_operation(builder, MakeInk{stream.window, params.color, params.tint.has_value()},
+                          {stream, tint[0], tint[1], tint[2]});
         return add_operation(builder, LayInk{params.overlap}, {ink});
     }
 
     const Params params;
+
+private:
+    // Red, green and blue.
+    std::array<Stream, 3> tint_beside(Builder& builder, const Stream& strokes) const {
+        std::array<Stream, 3> out;
+        if (!params.tint) {
+            out.fill(add_operation(builder, NoSamples{}, {}));
+            return out;
+        }
+        const Stream image = builder.input(*params.tint);
+        const std::vector<ValueRef> values = take_channels(builder, image, colour_without_alpha());
+        for (std::size_t c = 0; c < out.size(); ++c) {
+            Stream channel = image;
+            channel.channels.clear();
+            channel.set("Y", values[c]);
+            out[c] = add_operation(builder, SampleBeside{}, {channel, strokes});
+        }
+        return out;
+    }
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/crowded_strokes.h"
 #include "engine/kit/stroke_samples.h"
 #include "engine/kit/strokes.h"
 #include "engine/kit/wildcard.h"
@@ -66,6 +67,7 @@ struct WeightParams {
     std::array<double, 2> by_map{0, 1};
     double min = 0.3;
     double smooth = 8;
+    std::optional<double> apart;
 
     static constexpr auto fields = declare(
         input(&WeightParams::in, "in", "The strokes; what their width is already is a factor, too.",
@@ -97,16 +99,12 @@ struct WeightParams {
         field(&WeightParams::min, "min",
               "No factors make a stroke narrower than this share, unless one is 0.", between(0, 1)),
         field(&WeightParams::smooth, "smooth", "The length along a stroke over which changes are evened out.",
-              between(0, 200)));
-};
-
-// No map: none of its samples.
-struct NoSamples {
-    struct Params {
-        static constexpr auto fields = declare();
-    };
-    static StrokeSamples derive(const Inputs&) { return {}; }
-    static std::size_t datum_bytes() { return 0; }
+              between(0, 200)),
+        field(&WeightParams::apart, "apart",
+              "Where less would be left between two strokes, the later grows thin and gives way: outlines "
+              "stay, "
+              "creases go. Where it is absent, what runs close flows into one.",
+              between(0, 20)));
 };
 
 struct Weigh {
@@ -139,6 +137,7 @@ struct Weigh {
             even_out(stroke, params.smooth * unit);
             for (StrokeVertex& v : stroke.vertices) v.width *= params.width * unit;
         }
+        if (params.apart) give_way(out, *params.apart * unit);
         return out;
     }
     static std::size_t datum_bytes() { return kUsualStrokes; }

@@ -13,8 +13,8 @@ double off(CurvePoint p, CurvePoint begin, const std::vector<Bezier>& curves) {
     double nearest = 1e9;
     CurvePoint a = begin;
     for (const Bezier& b : curves) {
-        for (int i = 0; i <= 200; ++i) {
-            const double t = i / 200.0, s = 1 - t;
+        for (int i = 0; i <= 2000; ++i) {
+            const double t = i / 2000.0, s = 1 - t;
             const double k0 = s * s * s, k1 = 3 * s * s * t, k2 = 3 * s * t * t, k3 = t * t * t;
             nearest = std::min(nearest, std::hypot(k0 * a.x + k1 * b[0].x + k2 * b[1].x + k3 * b[2].x - p.x,
                                                    k0 * a.y + k1 * b[0].y + k2 * b[1].y + k3 * b[2].y - p.y));

@@ -160,6 +160,32 @@ TEST(Chain, OfADoubleThatLeavesTheRestStays) {
     EXPECT_EQ(strokes[1].vertices.back().x, 40);
 }
 
+// As where an outline is an intersection for a while.
+TEST(Chain, AShortPieceBetweenTwoLinesStays) {
+    const std::vector<Stroke> strokes{straight({0, 0}, {20, 0}, StrokeKind::kOutline),
+                                      straight({23, 0}, {40, 0}, StrokeKind::kOutline),
+                                      straight({20, 0}, {23, 0}, StrokeKind::kIntersection)};
+    const auto kept = without_doubles(strokes, 1.5, 4);
+    ASSERT_EQ(kept.size(), 3U);
+    EXPECT_NEAR(length_of(kept[2]), 3, 1e-9);
+}
+
+TEST(Chain, WhatIsLeftOfADoubleStaysIfItLeadsToALine) {
+    Stroke leaving = straight({0, 1}, {20, 1});
+    for (int i = 1; i <= 3; ++i) {
+        StrokeVertex v;
+        v.x = 20;
+        v.y = 1 + i;
+        leaving.vertices.push_back(v);
+    }
+    const auto left = [&](StrokeEnd end) {
+        leaving.ends[1] = end;
+        return without_doubles({straight({0, 0}, {30, 0}, StrokeKind::kOutline), leaving}, 1.5, 6).size() - 1;
+    };
+    EXPECT_EQ(left(StrokeEnd::kEnd), 0U);
+    EXPECT_EQ(left(StrokeEnd::kJoined), 1U);
+}
+
 TEST(Chain, ARingOpensWhereItIsADouble) {
     const auto strokes =
         without_doubles({straight({30, 0}, {30, 40}, StrokeKind::kCrease), ring({20, 20}, 10)}, 1, 4);

@@ -221,6 +221,23 @@ TEST(DrawStrokes, TakesTheWindowsOfAnImage) {
     EXPECT_EQ(image.at("A", 11, 4), 1);
 }
 
+// Red above 20, blue below; each line is as what it belongs to, on its right, along its whole way.
+TEST(DrawStrokes, IsTintedByWhatAStrokeBelongsTo) {
+    const Image tint = Image(kFrame, {"R", "G", "B"})
+                           .fill("R", [](int, int y) { return y < 20 ? 0.8 : 0; })
+                           .fill("B", [](int, int y) { return y < 20 ? 0 : 0.4; });
+    const Strokes strokes =
+        strokes_in(kFrame, {stroke({{5, 20}, {25, 20}}, 2), stroke({{25, 10}, {5, 10}}, 2)});
+    const Image image =
+        draw_strokes("draw", {{"color", {0.5, 0.5, 0.5}}, {"tint", "tint"}}, strokes, {}, {{"tint", tint}});
+    for (const int y : {19, 20}) {
+        EXPECT_EQ(image.at("R", 15, y), 0);
+        EXPECT_FLOAT_EQ(image.at("B", 15, y), 0.2F);
+    }
+    EXPECT_FLOAT_EQ(image.at("R", 15, 10), 0.4F);
+    EXPECT_EQ(image.at("B", 15, 10), 0);
+}
+
 TEST(DrawStrokes, BearsStrokesOfAnySize) {
     constexpr double kFar = 1e300;
     const std::vector<Stroke> strokes{

@@ -180,5 +180,47 @@ TEST(Weight, AMapIsReadTheSameForAllTilesAndThreads) {
     }
 }
 
+// Two lines so far apart, both 2 pixels wide.
+std::vector<double> widths_beside(double distance, double apart) {
+    Places below;
+    for (int i = 0; i < 60; ++i) below.emplace_back(20.0 + i, 10 + distance);
+    Places above;
+    for (int i = 0; i < 100; ++i) above.emplace_back(double(i), 10);
+    Strokes out = run_on_strokes("weight", {{"width", 2}, {"units", "px"}, {"apart", apart}},
+                                 strokes_in(kHalf, {stroke(above), stroke(below, 1, StrokeKind::kCrease)}));
+    EXPECT_THAT(widths(out.strokes.at(0)), ::testing::Each(2)) << "the first stays";
+    return widths(out.strokes.at(1));
+}
+
+TEST(Weight, WhatIsCloseToALineBeforeItGivesWay) {
+    EXPECT_THAT(widths_beside(3.01, 1), ::testing::Each(2)) << "there is a pixel between them";
+    EXPECT_THAT(widths_beside(2, 1), ::testing::Each(::testing::DoubleNear(1, 1e-9))) << "half of it";
+    EXPECT_THAT(widths_beside(1, 1), ::testing::Each(0)) << "it would run inside the other";
+    EXPECT_THAT(widths_beside(1.5, 0), ::testing::Each(::testing::DoubleNear(1, 1e-9)));
+}
+
+TEST(Weight, WhatCrossesALineOrGoesOnInItDoesNotGiveWay) {
+    Places across, on;
+    for (int i = 0; i < 20; ++i) across.emplace_back(20, 1.0 + i);
+    for (int i = 0; i < 20; ++i) on.emplace_back(29.0 + i, 10);
+    const Strokes out = run_on_strokes("weight", {{"width", 2}, {"units", "px"}, {"apart", 2}},
+                                       strokes_in(kHalf, {line(), stroke(across, 1, StrokeKind::kFold),
+                                                          stroke(on, 1, StrokeKind::kCrease)}));
+    for (const Stroke& s : out.strokes) EXPECT_THAT(widths(s), ::testing::Each(2));
+}
+
+// The two sides of something thin are one line.
+TEST(Weight, AStrokeThatComesBackGivesWayToItself) {
+    Places there_and_back;
+    for (int i = 0; i < 60; ++i) there_and_back.emplace_back(20.0 + i, 10);
+    for (int i = 59; i >= 0; --i) there_and_back.emplace_back(20.0 + i, 10.8);
+    const std::vector<double> w =
+        widths(run_on_strokes("weight", {{"width", 2}, {"units", "px"}, {"apart", 1}},
+                              strokes_in(kHalf, {stroke(there_and_back)}))
+                   .strokes.at(0));
+    for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(w[i], 2) << i;
+    for (std::size_t i = 75; i < 115; ++i) EXPECT_EQ(w[i], 0) << i;
+}
+
 }  // namespace
 }  // namespace keyline::testing

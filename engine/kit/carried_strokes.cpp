@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The Keyline Authors
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/carried_strokes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace keyline {
+
+namespace {
+
+using Way = StrokeWays::Way;
+
+constexpr std::array kInside{1.5, 2.5};  // pixels from a line, where samples are not mixed
+
+std::size_t vertices_of(const Strokes& strokes) {
+    std::size_t sum = 0;
+    for (const Stroke& s : strokes.strokes) sum += s.vertices.size();
+    return sum;
+}
+
+// visit(vertex, its place among all) in order.
+template <class List, class Visit>
+void for_each_vertex(List& strokes, const Visit& visit) {
+    std::size_t i = 0;
+    for (auto& s : strokes)
+        for (auto& v : s.vertices) visit(v, i++);
+}
+
+Rect bounds_of(const Stroke& s) {
+    double x0 = s.vertices[0].x, x1 = x0, y0 = s.vertices[0].y, y1 = y0;
+    for (const StrokeVertex& v : s.vertices) {
+        x0 = std::min(x0, v.x), x1 = std::max(x1, v.x);
+        y0 = std::min(y0, v.y), y1 = std::max(y1, v.y);
+    }
+    static constexpr double kFar = 1e9;
+    const auto whole = [](double d) { return static_cast<int>(std::floor(std::clamp(d, -kFar, kFar))); };
+    const double reach = kInside.back() + 1;
+    return {whole(x0 - reach), whole(y0 - reach), whole(x1 + reach) + 1, whole(y1 + reach) + 1};
+}
+
+struct Direction {
+    double x = 0, y = 0;
+};
+
+// To the right of the way from the vertex before to the one after.
+Direction inwards(const Stroke& s, std::size_t i) {
+    const std::vector<StrokeVertex>& v = s.vertices;
+    const std::size_t last = v.size() - 1;
+    const StrokeVertex& before = v[i > 0 ? i - 1 : s.closed ? last : 0];
+    const StrokeVertex& after = v[i < last ? i + 1 : s.closed ? 0 : last];
+    const double x = after.x - before.x, y = after.y - before.y, length = std::sqrt(x * x + y * y);
+    return length > 0 ? Direction{-y / length, x / length} : Direction{};
+}
+
+// Motion changes along a surface, so it is carried on to the line where the surface goes on that far.
+Way at_line(const Way& near, const Way& farther) {
+    if (!near.is_known || !farther.is_known) return near;
+    constexpr double kOneSurface = 0.25;  // pixels
+    const double x = near.x - farther.x, y = near.y - farther.y;
+    if (std::sqrt(x * x + y * y) > kOneSurface) return near;
+    constexpr double kBack = kInside[0] / (kInside[1] - kInside[0]);
+    return {near.x + kBack * x, near.y + kBack * y, true};
+}
+
+}  // namespace
+
+CarriedStrokes BeginCarrying::derive(const Inputs& in) {
+    const auto& strokes = in.datum<Strokes>(0);
+    return {strokes, std::vector<uint8_t>(vertices_of(strokes), 1)};
+}
+
+FindWays::Partial FindWays::map(const State&, const Inputs& in, const Rect& block, Scratch&) const {
+    const std::span<const View> image = in.slot(0);
+    Partial out;
+    uint32_t first = 0;
+    for (const Stroke& s : in.datum<CarriedStrokes>(1).strokes.strokes) {
+        const auto n = static_cast<uint32_t>(s.vertices.size());
+        if (!intersect(bounds_of(s), block).empty())
+            for (uint32_t i = 0; i < n; ++i) {
+                const Direction inside = inwards(s, i);
+                for (uint32_t k = 0; k < kInside.size(); ++k) {
+                    const double x = std::floor(s.vertices[i].x + kInside[k] * inside.x),
+                                 y = std::floor(s.vertices[i].y + kInside[k] * inside.y);
+                    if (!(x >= block.x0 && x < block.x1 && y >= block.y0 && y < block.y1)) continue;
+                    const auto channel = [&](std::size_t c) {
+                        return *image[c].at(static_cast<int>(x), static_cast<int>(y));
+                    };
+                    out.push_back({first + i, k, to_next ? -channel(2) : channel(0),
+                                   to_next ? channel(3) : -channel(1)});
+                }
+            }
+        first += n;
+    }
+    return out;
+}
+
+StrokeWays FindWays::finish(State state) {
+    std::ranges::sort(state, {}, [](const Sample& s) { return std::tuple(s.vertex, s.farther); });
+    StrokeWays out;
+    const auto way = [](const Sample& s) {
+        return Way{double{s.x}, double{s.y}, std::isfinite(s.x) && std::isfinite(s.y)};
+    };
+    for (std::size_t i = 0; i < state.size();) {
+        std::array<Way, kInside.size()> of;
+        const uint32_t vertex = state[i].vertex;
+        for (; i < state.size() && state[i].vertex == vertex; ++i) of[state[i].farther] = way(state[i]);
+        out.ways.resize(vertex);
+        out.ways.push_back(at_line(of[0], of[1]));
+    }
+    return out;
+}
+
+CarriedStrokes GoWays::derive(const Inputs& in) {
+    CarriedStrokes out = in.datum<CarriedStrokes>(0);
+    const std::vector<Way>& ways = in.datum<StrokeWays>(1).ways;
+    for_each_vertex(out.strokes.strokes, [&](StrokeVertex& v, std::size_t i) {
+        const Way way = i < ways.size() ? ways[i] : Way{};
+        v.x += way.x;
+        v.y += way.y;
+        out.seen[i] &= static_cast<uint8_t>(way.is_known);
+    });
+    return out;
+}
+
+CarriedStrokes DropHidden::derive(const Inputs& in) {
+    CarriedStrokes out = in.datum<CarriedStrokes>(0);
+    const std::vector<Way>&there = in.datum<StrokeWays>(1).ways, &back = in.datum<StrokeWays>(2).ways;
+    constexpr double kSamePlace = 0.5;  // pixels
+    for (std::size_t i = 0; i < out.seen.size(); ++i) {
+        const bool known = i < there.size() && i < back.size() && back[i].is_known;
+        const double x = known ? there[i].x + back[i].x : 0, y = known ? there[i].y + back[i].y : 0;
+        if (!known || std::sqrt(x * x + y * y) >= kSamePlace) out.seen[i] = 0;
+    }
+    return out;
+}
+
+}  // namespace keyline
