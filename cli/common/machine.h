@@ -30,6 +30,10 @@ Share usable_memory();
 // theirs, so that --memory would hold on one day and not on the next.  Before anything is allocated.
 void give_large_blocks_back();
 
+// The most memory that this process held since the last call, in bytes, helper programs not counted; 0 where
+// the system does not tell, and since its start where it does not let one begin anew.
+std::size_t peak_memory_since_last();
+
 // How many of so many threads the system lets this process start, itself counted.
 int startable_threads(int wanted);
 

@@ -6,6 +6,7 @@
 #include "engine/graph/read_text.h"
 #include "engine/params/frames.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -225,6 +226,21 @@ std::size_t parse_size(const std::string& text) {
     if (!(bytes >= 1 && bytes < std::ldexp(1.0, 62)))
         fail(ErrorKind::kGraph, "it must be from 1 byte to 4194303T");
     return static_cast<std::size_t>(bytes);
+}
+
+std::chrono::milliseconds parse_duration(const std::string& text) {
+    constexpr std::string_view kUnits = "smh";
+    constexpr std::array<double, 3> kSeconds{1, 60, 3600};
+    constexpr double kWeek = 7 * 24 * 3600;
+    double number = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, number, std::chars_format::fixed);
+    const std::size_t unit = rest == end ? 0 : kUnits.find(*rest);
+    if (error != std::errc{} || unit == std::string_view::npos || rest + (rest == end ? 0 : 1) != end)
+        fail(ErrorKind::kGraph, "it must be a time, as 90s, 10m or 2h; seconds without a unit");
+    const double seconds = number * kSeconds.at(unit);
+    if (!(seconds >= 0.001 && seconds <= kWeek)) fail(ErrorKind::kGraph, "it must be from 1 ms to a week");
+    return std::chrono::milliseconds(static_cast<int64_t>(1000 * seconds));
 }
 
 int parse_count(const std::string& text, int least, int most) {

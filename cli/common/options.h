@@ -6,6 +6,7 @@
 #include "cli/common/machine.h"
 #include "engine/run/render.h"
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -57,6 +58,9 @@ std::string command_of(const GraphArguments& arguments);
 
 // "512M", "1.5G", "4096": bytes, with powers of 1024.  Throws Failure (kGraph) for anything else and for 0.
 std::size_t parse_size(const std::string& text);
+
+// "90s", "10m", "1.5h", "600": seconds.  Throws Failure (kGraph) for anything else, and beyond a week.
+std::chrono::milliseconds parse_duration(const std::string& text);
 
 // A whole number of an option.  Throws Failure (kGraph) for anything else and out of range.
 int parse_count(const std::string& text, int least, int most);

@@ -6,6 +6,7 @@
 #include "cli/common/report.h"
 #include "cli/common/run_program.h"
 #include "cli/farm/commands.h"
+#include "cli/farm/job_files.h"
 #include "engine/params/frames.h"
 
 #include <algorithm>
@@ -27,7 +28,10 @@ struct SubmitArguments {
     GraphArguments graph;
     std::string chunk = "10", name, logs = ".", partition, round = "1", rounds = "3";
     bool print = false, wait = false;
-    std::string bundle;
+    std::string bundle;  // of Open Job Description
+    std::string files;   // the folder to write a job's files into; empty: they are sent
+    std::string program, user, show = "keyline", shot = "test", service, pool, group;
+    std::string url = "http://localhost:8080";
 };
 
 std::vector<std::string> chunks_of(const std::vector<int>& frames, int chunk) {
@@ -53,6 +57,10 @@ std::string name_of(const GraphArguments& graph) {
 void add_folder(std::vector<std::string>& folders, const std::filesystem::path& file) {
     const std::string folder = std::filesystem::absolute(file).parent_path().string();
     if (std::ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
+}
+
+std::string whole_path(const std::string& file) {
+    return file.empty() ? "" : std::filesystem::absolute(file).string();
 }
 
 // What the first frame needs on so many threads, as a manager is to allot it: a render takes seven eighths.
@@ -84,6 +92,9 @@ std::optional<Submission> prepared(const SubmitArguments& arguments, Diagnostics
     count("--chunk", arguments.chunk, kMostFramesOfATask, job.chunk);
     count("--round", arguments.round, 100, job.round);
     count("--rounds", arguments.rounds, 100, job.rounds);
+    if (arguments.graph.graph == "-")
+        diagnostics.error(
+            {ErrorKind::kGraph, {}, {}, "tasks read the graph themselves", "give it as a file"});
     if (!diagnostics.ok()) return std::nullopt;
     job.graph = arguments.graph;
     job.frames = loaded.options.frames;
@@ -95,6 +106,14 @@ std::optional<Submission> prepared(const SubmitArguments& arguments, Diagnostics
     job.memory *= static_cast<std::size_t>(job.round);
     job.partition = arguments.partition;
     job.logs = arguments.logs;
+    job.program = arguments.program.empty() ? own_program() : arguments.program;
+    job.user = arguments.user;
+    job.show = arguments.show;
+    job.shot = arguments.shot;
+    job.service = arguments.service;
+    job.pool = arguments.pool;
+    job.group = arguments.group;
+    job.url = arguments.url;
     return diagnostics.ok() ? std::optional(std::move(job)) : std::nullopt;
 }
 
@@ -104,7 +123,12 @@ int run(const SubmitArguments& arguments, const std::string& manager) {
     report(diagnostics);
     if (!job) return exit_status(diagnostics);
     if (manager == "slurm") return submit_to_slurm(*job, {arguments.print, arguments.wait});
-    write_openjd_bundle(*job, arguments.bundle);
+    if (manager == "openjd") return write_openjd_bundle(*job, arguments.bundle), 0;
+    const FileManager& taker = *std::ranges::find(file_managers(), manager, &FileManager::name);
+    if (arguments.files.empty())
+        send_job(taker, *job);
+    else
+        write_job_files(taker, *job, arguments.files);
     return 0;
 }
 
@@ -121,10 +145,71 @@ Command add_manager(const Command& submit, const std::shared_ptr<SubmitArguments
     return command;
 }
 
+void add_program_option(const Command& command, SubmitArguments& arguments) {
+    command.option("--program", arguments.program, "FILE",
+                   "Where Keyline lies on the machines that render; where it lies here when absent");
+}
+
+// What each of the managers that take files asks for.
+void add_own_options(const Command& command, const std::string& manager, SubmitArguments& a) {
+    add_program_option(command, a);
+    command.option("--job", a.files, "DIR", "Write the job's files into this folder, and send nothing");
+    const auto add = [&](const char* option, std::string& value, const char* help) {
+        command.option(option, value, "NAME", help);
+    };
+    if (manager == "opencue" || manager == "afanasy")
+        add("--user", a.user, "Whose job it is; yours when absent");
+    if (manager == "opencue") {
+        add("--show", a.show, "The show, which OpenCue must know; keyline when absent");
+        add("--shot", a.shot, "The shot; test when absent");
+        add("--service", a.service, "The service of the layers; shell when absent");
+    } else if (manager == "afanasy") {
+        add("--service", a.service, "The service of the blocks; generic when absent");
+    } else if (manager == "tractor") {
+        add("--service", a.service, "The service key; PixarRender when absent");
+    } else if (manager == "deadline") {
+        add("--pool", a.pool, "The pool; Deadline's own choice when absent");
+        add("--group", a.group, "The group; Deadline's own choice when absent");
+    } else if (manager == "flamenco") {
+        command.option("--manager", a.url, "URL", "Flamenco's manager; http://localhost:8080 when absent");
+    }
+}
+
 }  // namespace
 
+std::vector<std::string> command_words(const Submission& job, const char* command) {
+    std::vector<std::string> out{job.program, command, whole_path(job.graph.graph)};
+    const auto add = [&out](const std::string& option, const std::string& value) {
+        if (!value.empty()) out.push_back(option + "=" + value);
+    };
+    for (const std::string& s : job.graph.set) add("--set", s);
+    for (const std::string& s : job.graph.vars) add("--vars", whole_path(s));
+    for (const std::string& s : job.graph.var) add("--var", s);
+    for (const std::string& s : job.graph.only) add("--only", s);
+    for (const std::string& s : job.graph.output) add("--output", s);
+    add("--ocio", whole_path(job.graph.ocio));
+    add("--root", whole_path(job.graph.root));
+    add("--path-map", whole_path(job.graph.path_map));
+    add("--threads", job.graph.threads);
+    return out;
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+    std::string out;
+    for (const std::string& word : words) out += (out.empty() ? "" : " ") + shell_word(word);
+    return out;
+}
+
+std::string all_frames(const Submission& job) {
+    std::vector<int> frames = job.frames;
+    std::ranges::sort(frames);
+    std::string out = format_frames(frames);
+    std::erase(out, ' ');
+    return out;
+}
+
 std::string command_line(const Submission& job, const char* command) {
-    std::string out = fmt::format("{} {} {}", shell_word(own_program()), command, options_text(job.graph));
+    std::string out = fmt::format("{} {} {}", shell_word(job.program), command, options_text(job.graph));
     for (const std::string& s : job.graph.only) out += " --only=" + shell_word(s);
     for (const std::string& s : job.graph.output) out += " --output=" + shell_word(s);
     return out;
@@ -143,6 +228,10 @@ void add_submit(const Command& program) {
     slurm.option("--round", arguments->round, "N", "Which of them this is").hidden();
     slurm.flag("--print", arguments->print, "Print what would be submitted, and submit nothing");
     slurm.flag("--wait", arguments->wait, "Wait for the end; status 0 where all outputs are current then");
+    add_program_option(slurm, *arguments);
+    for (const FileManager& manager : file_managers())
+        add_own_options(add_manager(submit, arguments, manager.name, manager.about), manager.name,
+                        *arguments);
     const Command openjd = add_manager(
         submit, arguments, "openjd", "A job bundle of Open Job Description, as AWS Deadline Cloud takes it");
     openjd.option("--bundle", arguments->bundle, "DIR", "The folder to write it into").required();

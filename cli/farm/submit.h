@@ -23,10 +23,20 @@ struct Submission {
     int round = 1, rounds = 1;  // tries of the whole, until what is not current is given up
     std::string partition;      // of Slurm; empty: its default
     std::string logs;           // the folder of the logs
+    std::string program;        // where Keyline lies on the machines that render
+    // What else managers ask for; empty where it was not said.
+    std::string user, show, shot, service, pool, group, url;
 };
 
-// "keyline render GRAPH" and the options that say what is rendered, of this program, as a shell takes it.
+// "keyline render GRAPH" and the options that say what is rendered, as a shell takes it.
 std::string command_line(const Submission& job, const char* command);
+
+// The same word by word, each file by its whole path: many managers start tasks in folders of their own.
+std::vector<std::string> command_words(const Submission& job, const char* command);
+std::string shell_line(const std::vector<std::string>& words);
+
+// All frames in rising order, as --frames takes them, without blanks.
+std::string all_frames(const Submission& job);
 
 // An array of tasks, and a job after it that looks at the outputs and submits again what is not current.
 // Returns the exit status.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/look/diagram.h"
 
+#include "cli/common/base64.h"
 #include "cli/common/run_program.h"
-#include "cli/look/base64.h"
 #include "engine/base/error.h"
 #include "engine/base/index.h"
 #include "engine/base/text.h"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/frames.h"
 #include "cli/common/report.h"
+#include "cli/common/temporary_folder.h"
 #include "cli/look/commands.h"
 #include "cli/look/diagram.h"
 #include "cli/look/pictures.h"
-#include "cli/look/temporary_folder.h"
 
 #include <algorithm>
 #include <fmt/format.h>

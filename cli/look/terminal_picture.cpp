@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/look/terminal_picture.h"
 
-#include "cli/look/base64.h"
+#include "cli/common/base64.h"
 #include "engine/base/error.h"
 
 #include <algorithm>

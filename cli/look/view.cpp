@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/report.h"
+#include "cli/common/temporary_folder.h"
 #include "cli/look/commands.h"
 #include "cli/look/pictures.h"
-#include "cli/look/temporary_folder.h"
 #include "cli/look/terminal_picture.h"
 #include "engine/look/linear_picture.h"
 

@@ -41,6 +41,9 @@ public:
     void start(const RunBooks& books) override { tell(books); }
     void frame_ended(const RunBooks& books, int, FrameOutcome, double) override { tell(books); }
     void beat(const RunBooks& books) override { tell(books); }
+    void frame_waits(int frame, const std::string& for_what) override {
+        Voice::frame_waits(frame, without_spells(for_what));
+    }
     void warning(const Error& warning) override { print_message(without_spells(warning.warning_text())); }
     void error(const Error& error) override { print_message(without_spells(error.text())); }
     void end(const RunBooks& books, const Ending& ending, const std::vector<int>& untried) override {

@@ -30,6 +30,7 @@ void Progress::beat(std::chrono::milliseconds patience) {
     while (!at_rest_.wait_until(lock, last_word_ + patience, [this] { return rests_; })) {
         if (RunBooks::Clock::now() < last_word_ + patience) continue;
         last_word_ = RunBooks::Clock::now();
+        for (const auto& [frame, for_what] : books_.waiting) voice_->frame_waits(frame, for_what);
         voice_->beat(books_);
     }
 }
@@ -51,6 +52,7 @@ void Progress::start() {
 
 void Progress::frame_started(int frame, const Plan& plan) {
     const auto lock = speak();
+    books_.waiting.erase(frame);
     books_.at_work[frame].begun = RunBooks::Clock::now();
     voice_->frame_started(books_, frame, plan);
 }
@@ -60,6 +62,7 @@ void Progress::frame_ended(int frame, FrameOutcome outcome) {
     const auto begun = books_.at_work.find(frame);
     const double seconds = begun == books_.at_work.end() ? 0 : seconds_since(begun->second.begun);
     books_.at_work.erase(frame);
+    books_.waiting.erase(frame);
     books_.list.set(frame, outcome != FrameOutcome::kFailed);
     switch (outcome) {
         case FrameOutcome::kDone: ++books_.done; break;
@@ -67,6 +70,14 @@ void Progress::frame_ended(int frame, FrameOutcome outcome) {
         case FrameOutcome::kFailed: ++books_.failed; break;
     }
     voice_->frame_ended(books_, frame, outcome, seconds);
+}
+
+void Progress::frame_waits(int frame, const Error& for_what) {
+    const auto lock = speak();
+    // As a warning's: it is none, and nobody is to take it for an error.
+    std::string what = Error{for_what.kind, {}, {}, for_what.what, {}}.warning_text();
+    what.erase(0, std::string_view("warning: ").size());
+    voice_->frame_waits(frame, books_.waiting[frame] = std::move(what));
 }
 
 void Progress::frame_lost(int frame, FrameOutcome was) {

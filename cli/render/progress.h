@@ -39,6 +39,7 @@ public:
     void frame_ended(int frame, FrameOutcome outcome) override;
     void frame_lost(int frame, FrameOutcome was) override;
     void frame_went_on(int frame, double part) override;
+    void frame_waits(int frame, const Error& for_what) override;
     void warning(const Error& warning) override;
     void error(const Error& error) override;
 

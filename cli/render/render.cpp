@@ -6,6 +6,7 @@
 #include "cli/common/signals.h"
 #include "cli/render/commands.h"
 #include "cli/render/progress.h"
+#include "cli/render/run_report.h"
 #include "engine/run/one_tile.h"
 
 #include <algorithm>
@@ -26,9 +27,10 @@ namespace {
 
 struct RenderArguments {
     GraphArguments graph;
-    std::string progress = "auto", heartbeat;
+    std::string progress = "auto", heartbeat, wait_inputs;
     bool skip_existing = false, only_stale = false, keep_going = false, no_provenance = false;
     std::string profile;  // the trace's file; empty: none
+    std::string report;   // its file; empty: none
     std::string only_tile;
 };
 
@@ -98,6 +100,18 @@ std::optional<std::chrono::milliseconds> patience_of(const std::string& text, Di
     return std::nullopt;
 }
 
+// Reads an option where it is given; what is wrong with it is told.
+template <class Read>
+void read_option(const char* name, const std::string& text, Diagnostics& diagnostics, const Read& read) {
+    try {
+        if (!text.empty()) read(text);
+    } catch (const Failure& f) {
+        Error e = f.error();
+        e.place = {fmt::format("{} {}", name, text), 0, 0};
+        diagnostics.error(std::move(e));
+    }
+}
+
 // "edges@0,64,32,32"
 OneTile parse_tile(const std::string& text) {
     const std::size_t at = text.rfind('@');
@@ -144,11 +158,12 @@ struct Ended {
     std::vector<int> untried;  // frames
 };
 
-Ended render_frames(const LoadedGraph& loaded, Recorder* recorder, Progress& progress) {
+Ended render_frames(const LoadedGraph& loaded, Recorder* recorder, Progress& progress, Reporter* reporter) {
     const StopOnSignal stop;
     progress.start();
     try {
-        const RenderResult result = render(*loaded.graph, loaded.options, progress, stop.requested());
+        RenderObserver& listener = reporter ? static_cast<RenderObserver&>(*reporter) : progress;
+        const RenderResult result = render(*loaded.graph, loaded.options, listener, stop.requested());
         if (recorder) end_profile(*recorder);
         return {ending_of(result.cause), result.untried};
     } catch (const Failure& f) {
@@ -167,6 +182,9 @@ Ended load_and_render(const RenderArguments& arguments, Progress& progress, Diag
     options.only_stale = arguments.only_stale;
     options.provenance = !arguments.no_provenance;
     options.keep_going = arguments.keep_going;
+    read_option("--wait-inputs", arguments.wait_inputs, diagnostics,
+                [&](const std::string& s) { options.wait_inputs = parse_duration(s); });
+    read_option("--report", arguments.report, diagnostics, check_report_name);
     if (loaded.graph && !loaded.no_frames)
         options.frames = frames_to_render(*loaded.graph, options.frames, diagnostics);
     progress.expect(options.frames);
@@ -178,7 +196,11 @@ Ended load_and_render(const RenderArguments& arguments, Progress& progress, Diag
     start_no_more_threads_than_there_can_be(options, progress);
     std::optional<Recorder> recorder;
     if (!arguments.profile.empty()) options.recorder = &recorder.emplace(arguments.profile);
-    return render_frames(loaded, options.recorder, progress);
+    if (arguments.report.empty()) return render_frames(loaded, options.recorder, progress, nullptr);
+    Reporter reporter(progress, arguments.graph.graph, options.frames);
+    Ended ended = render_frames(loaded, options.recorder, progress, &reporter);
+    write_report(reporter.finish(*loaded.graph, options, ended.ending), arguments.report);
+    return ended;
 }
 
 int run(const RenderArguments& arguments) {
@@ -210,6 +232,12 @@ void add_render(const Command& program) {
     command.flag("--no-provenance", arguments->no_provenance,
                  "Leave out of the outputs what they were made of: equal pixels are equal files");
     command.flag("--keep-going", arguments->keep_going, "Go on with the next frame after one fails");
+    command.option(
+        "--wait-inputs", arguments->wait_inputs, "TIME",
+        "Have a frame wait so long for inputs that are not there yet or not whole, as 10m; not at all "
+        "when absent");
+    command.option("--report", arguments->report, "FILE",
+                   "Write what became of each frame to FILE, .json or .html; reads the outputs once more");
     command.option("--profile", arguments->profile, "FILE",
                    "Print where the time went and write it to FILE as a Chrome trace");
     command.option(

@@ -27,6 +27,7 @@ struct RunBooks {
     Clock::time_point start = Clock::now();
     std::map<int, AtWork> at_work;  // frames; they overlap
     FrameBooks list;
+    std::map<int, std::string> waiting;  // frames, and the inputs that they wait for
 
     std::size_t ended() const { return done + skipped + failed; }
     double part() const;  // of all frames, 0 to 1
@@ -49,6 +50,8 @@ public:
     virtual void frame_started(const RunBooks&, int /*frame*/, const Plan&) {}
     virtual void frame_ended(const RunBooks&, int /*frame*/, FrameOutcome, double /*seconds*/) {}
     virtual void frame_lost(int /*frame*/) {}
+    // At its begin, where it waits for something else, and again while nothing else is said.
+    virtual void frame_waits(int frame, const std::string& for_what);
     virtual void beat(const RunBooks&) {}  // nothing else was said for a while
     virtual void warning(const Error& warning);
     virtual void error(const Error& error);

@@ -5,6 +5,7 @@
 #include "engine/json/json_writer.h"
 #include "engine/params/frames.h"
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -45,6 +46,10 @@ double RunBooks::part() const {
 void Voice::warning(const Error& warning) { print_warning(warning); }
 void Voice::error(const Error& error) { print_error(error); }
 
+void Voice::frame_waits(int frame, const std::string& for_what) {
+    print_message(fmt::format("frame {} waits: {}", frame, for_what));
+}
+
 void Voice::stopped(const std::string& signal) {
     print_message(fmt::format("stopped by {}; no unfinished output is left", signal));
 }
@@ -56,7 +61,9 @@ void Voice::end(const RunBooks& books, const Ending& ending, const std::vector<i
 namespace {
 
 // Warnings, errors and the last line only.
-class NoVoice final : public Voice {};
+class NoVoice final : public Voice {
+    void frame_waits(int, const std::string&) override {}
+};
 
 // A line a frame.
 class LinesVoice : public Voice {
@@ -96,6 +103,10 @@ public:
         draw(books, fmt::format("frame {} {}", frame, outcome_name(outcome)));
     }
     void beat(const RunBooks&) override {}
+    void frame_waits(int frame, const std::string& for_what) override {
+        clear();
+        Voice::frame_waits(frame, for_what);
+    }
     void warning(const Error& warning) override {
         clear();
         Voice::warning(warning);
@@ -182,6 +193,9 @@ public:
                 .field("frames", books.frames));
     }
     void frame_lost(int frame) override { say(event("frame_lost").field("frame", frame)); }
+    void frame_waits(int frame, const std::string& for_what) override {
+        say(event("frame_waits").field("frame", frame).field("for", for_what));
+    }
     void beat(const RunBooks& books) override {
         for (const auto& [frame, work] : books.at_work)
             say(event("progress").field("frame", frame).field("part", work.part));
@@ -210,8 +224,15 @@ private:
 
 // The manager that started this process, where it says so; else a bar on a terminal, and lines.
 std::string recognised() {
-    if (std::getenv("DEADLINE_SESSIONACTION_ID")) return "openjd";
-    if (std::getenv("AF_TASK_ID")) return "afanasy";
+    struct Sign {
+        const char *variable, *voice;
+    };
+    constexpr std::array<Sign, 4> kSigns{{{"DEADLINE_SESSIONACTION_ID", "openjd"},
+                                          {"AF_TASK_ID", "afanasy"},
+                                          {"TR_ENV_TID", "tractor"},
+                                          {"CUE_FRAME", "lines"}}};
+    for (const Sign& sign : kSigns)
+        if (std::getenv(sign.variable)) return sign.voice;
     return isatty(STDERR_FILENO) != 0 ? "bar" : "lines";
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/plan/resolve.h"
 
+#include "engine/base/absent_input.h"
 #include "engine/base/bad_value.h"
 #include "engine/base/channels.h"
 #include "engine/base/index.h"
@@ -504,6 +505,8 @@ std::optional<Stream> Resolver::resolve_node(int node, int frame) {
             e.place = builder.place_of(bad->value());
         else if (e.place.file.empty())
             e.place = e.kind == ErrorKind::kInput ? builder.file_place() : builder.place();
+        if (options_.inputs_may_come && dynamic_cast<const AbsentInput*>(&f))
+            e.passing = Passing::kUnfinished;
         if (options_.known_sound && e.kind == ErrorKind::kGraph) e.kind = ErrorKind::kInput;
         if (e.node.empty()) e.node = builder.title();
         diagnostics_.error(std::move(e));

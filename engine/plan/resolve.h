@@ -107,6 +107,7 @@ struct ResolveOptions {
     bool known_sound = false;          // for another frame: a layer that is missing now is its file's fault
     bool leave_out_identities = true;  // nodes that say they change nothing
     bool check_formats = false;        // whether the files written can hold what they are given
+    bool inputs_may_come = false;      // what is not there is not finished
     bool faults_told = false;          // those of the graph: only what is sound of it is looked at
     std::shared_ptr<Session> session;  // null: files are read for this frame alone
 };

@@ -11,6 +11,7 @@
 #include "engine/run/last_look.h"
 #include "engine/run/one_tile.h"
 #include "engine/run/verify.h"
+#include "engine/run/wait_inputs.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include <memory>
 #include <new>
 #include <set>
+#include <thread>
 #include <unordered_set>
 
 namespace keyline {
@@ -94,6 +96,7 @@ public:
 
     RenderResult run(const std::atomic<bool>& cancel) {
         if (!first_frame_is_sound()) return result_;
+        cancel_ = &cancel;
         Executor(options_.threads, options_.memory).run(*this, cancel);
         look_once_more();
         // A frame that failed took those with it that were being read beside it, and those after it.
@@ -161,9 +164,11 @@ private:
         try {
             ResolveOptions resolving = resolve_options(graph_, options_, false);
             resolving.known_sound = frame != options_.frames.front();
-            auto resolved = resolve_checked(graph_, frame, resolving, diagnostics);
+            resolving.inputs_may_come = options_.wait_inputs.count() > 0;
+            auto resolved = resolve_when_ready(frame, resolving, diagnostics);
             if (resolving.known_sound)
                 for (const Error& w : diagnostics.warnings()) observer_.warning(w);
+            if (!resolved && *cancel_) return nullptr;
             if (!resolved) return frame_failed(frame, diagnostics.errors()), nullptr;
             tidy(*resolved);
             if (skips_some() && skip_finished(*resolved))
@@ -180,6 +185,31 @@ private:
             frame_failed(frame, {error_of(frame, std::current_exception())});
         }
         return nullptr;
+    }
+
+    // Where it is asked to wait, a frame is looked at until its inputs are whole.
+    std::optional<ResolvedFrame> resolve_when_ready(int frame, const ResolveOptions& resolving,
+                                                    Diagnostics& diagnostics) {
+        constexpr std::chrono::milliseconds kBetweenLooks(200);
+        const auto end = std::chrono::steady_clock::now() + options_.wait_inputs;
+        std::string told;
+        while (true) {
+            Diagnostics found;
+            auto resolved = resolve_checked(graph_, frame, resolving, found);
+            if (resolved && options_.wait_inputs.count() > 0) check_at_rest(*resolved, found);
+            const bool waits = options_.wait_inputs.count() > 0 && may_come(found.errors());
+            const bool is_over = *cancel_ || std::chrono::steady_clock::now() >= end;
+            if (!waits || is_over) {
+                for (const Error& w : found.warnings()) diagnostics.warning(w);
+                for (const Error& e : found.errors()) diagnostics.error(e);
+                return found.ok() ? std::move(resolved) : std::nullopt;
+            }
+            if (const Error& what = found.errors().front(); what.what != told) {
+                observer_.frame_waits(frame, what);
+                told = what.what;
+            }
+            std::this_thread::sleep_for(kBetweenLooks);
+        }
     }
 
     // Frames overlap: what is carried to coming ones must fit beside all that are at work.
@@ -286,6 +316,7 @@ private:
     RenderOptions options_;
     RenderObserver& observer_;
     // What earlier frames left.  A frame adds to it before the next one is begun.
+    const std::atomic<bool>* cancel_ = nullptr;
     const std::shared_ptr<std::vector<Carried>> held_ = std::make_shared<std::vector<Carried>>();
     Ahead ahead_;
     const Origins origins_;

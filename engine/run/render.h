@@ -8,6 +8,7 @@
 #include "engine/run/stats.h"
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -30,6 +31,7 @@ struct RenderOptions {
     bool only_stale = false;                       // leave outputs alone that are current (verify.h)
     bool provenance = true;                        // is written into outputs whose format holds it
     bool keep_going = false;                       // after a frame that failed
+    std::chrono::milliseconds wait_inputs{0};      // how long a frame waits for inputs that are not whole yet
     Recorder* recorder = nullptr;                  // told where the time goes; null: nothing is recorded
     std::string command = "keyline render GRAPH";  // that an internal error tells how to be seen again
     // Keeps what was read from files for the runs that it is given to; null: for one run.
@@ -50,6 +52,9 @@ public:
     // How much of a frame at work is done, 0 to 1.  Other than the rest it may come while another call is
     // under way, and it comes often.
     virtual void frame_went_on(int /*frame*/, double /*part*/) {}
+    // A frame can't be begun yet: an input of it is not there, or not whole.  Told again where
+    // that is another thing than before.
+    virtual void frame_waits(int /*frame*/, const Error& /*for_what*/) {}
     virtual void warning(const Error& /*warning*/) {}
     virtual void error(const Error& /*error*/) {}
 };

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/base/absent_input.h"
 #include "engine/io/mended_source.h"
 #include "engine/kit/color_operation.h"
 #include "engine/node/node_adaptor.h"
@@ -104,8 +105,8 @@ private:
 
     [[noreturn]] void refuse_missing(const std::filesystem::path& path) const {
         const std::vector<int> frames = params.file.frames_on_disk();
-        fail(ErrorKind::kInput, fmt::format("{}: no such file", path.string()),
-             frames.empty() ? "no frame of it is on disk" : "on disk are frames " + format_frames(frames));
+        throw AbsentInput(path.string(), frames.empty() ? "no frame of it is on disk"
+                                                        : "on disk are frames " + format_frames(frames));
     }
 
     OpenOptions options() const {

@@ -5,15 +5,23 @@
 // holds words, parted by blanks:
 //
 //   no_tmpfile    the file system has no files without a name
+//   no_link       it has no hard links, by which a file without a name gets one
+//   create=E      no file can be made
 //   rename_lost   a rename is done, and its answer is ENOENT: it was lost, and the system asked again
 //   rename=E      every rename fails with error number E
 //   fsync=E       every fsync of a file that was opened to be written to
 //   write=E       every pwrite
+//   write_from=N  every pwrite from the Nth on is ENOSPC: the disk is full then
+//   slow=MS       every pwrite takes so many milliseconds
 //   read=E        every pread from byte 4096 on
+//   read_every=N  of those every Nth is EIO
+//   short=N       a pread gives N bytes at most
 //   stale_once    the first opening of each name that ends in ".exr", to be read, is ESTALE
 //
 // KEYLINE_FAULTS_LOG names a file that gets a line for every folder that is listed.
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdlib>
@@ -64,6 +72,7 @@ bool is_stale(const char* name, int flags) {
 int opened(const char* name, int flags, mode_t mode) {
     if ((flags & O_TMPFILE) == O_TMPFILE && fault("no_tmpfile") != 0) return errno = EOPNOTSUPP, -1;
     if (is_stale(name, flags)) return errno = ESTALE, -1;
+    if (((flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE) && fails("create")) return -1;
     return real<int(const char*, int, ...)>("open")(name, flags, mode);
 }
 
@@ -105,12 +114,21 @@ int rename(const char* from, const char* to) noexcept {
     return done == 0 && fault("rename_lost") != 0 ? (errno = ENOENT, -1) : done;
 }
 
+int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
+    if (fault("no_link") != 0) return errno = EPERM, -1;
+    return real<int(int, const char*, int, const char*, int)>("linkat")(from_folder, from, to_folder, to,
+                                                                        flags);
+}
+
 int fsync(int descriptor) {
     return is_writable(descriptor) && fails("fsync") ? -1 : real<int(int)>("fsync")(descriptor);
 }
 
 ssize_t pwrite(int descriptor, const void* bytes, size_t n, off_t offset) {
     if (fails("write")) return -1;
+    if (fault("slow") != 0) usleep(static_cast<useconds_t>(1000 * fault("slow")));
+    static std::atomic<int> writes = 0;
+    if (fault("write_from") != 0 && ++writes >= fault("write_from")) return errno = ENOSPC, -1;
     return real<ssize_t(int, const void*, size_t, off_t)>("pwrite")(descriptor, bytes, n, offset);
 }
 
@@ -120,6 +138,10 @@ ssize_t pwrite64(int descriptor, const void* bytes, size_t n, off64_t offset) {
 
 ssize_t pread(int descriptor, void* bytes, size_t n, off_t offset) {
     if (offset >= 4096 && fails("read")) return -1;
+    static std::atomic<int> reads = 0;
+    if (offset >= 4096 && fault("read_every") != 0 && ++reads % fault("read_every") == 0)
+        return errno = EIO, -1;
+    if (fault("short") != 0) n = std::min(n, static_cast<size_t>(fault("short")));
     return real<ssize_t(int, void*, size_t, off_t)>("pread")(descriptor, bytes, n, offset);
 }
 

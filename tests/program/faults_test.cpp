@@ -96,6 +96,58 @@ TEST_F(Faults, WhatTheSystemSaysIsTold) {
     }
 }
 
+TEST_F(Faults, WhatHasNoHardLinksIsWrittenAllTheSame) {
+    EXPECT_EQ(render("no_link no_tmpfile").status, 0);
+    EXPECT_EQ(outputs().size(), 4U);
+}
+
+TEST_F(Faults, ASlowDiskIsWaitedFor) {
+    EXPECT_EQ(render("slow=30").status, 0);
+    EXPECT_EQ(outputs().size(), 4U);
+}
+
+TEST_F(Faults, ADiskThatFillsKeepsWhatWasWhole) {
+    const Outcome run = render("write_from=7", {"--keep-going", "--threads", "1"});
+    EXPECT_EQ(run.status, 75);
+    EXPECT_THAT(run.err, HasSubstr("retry=yes reason=space\n"));
+    const std::vector<std::string> whole = outputs();
+    EXPECT_FALSE(whole.empty());
+    EXPECT_LT(whole.size(), 4U);
+    for (const std::string& file : whole) EXPECT_THAT(file, Not(HasSubstr(".keyline-")));
+    EXPECT_EQ(keyline({"verify", "graph.json", "--frames", "1-4", "--list", "damaged,stale,foreign"}).out,
+              "");
+}
+
+TEST_F(Faults, AFolderWhereNothingMayBeMadeIsTheOutputsFault) {
+    for (const char* tmpfile : {"", "no_tmpfile "}) {
+        const Outcome run = render(fmt::format("{}create={}", tmpfile, EACCES));
+        EXPECT_EQ(run.status, 4) << run.err;
+        EXPECT_THAT(run.err, HasSubstr("Permission denied"));
+        EXPECT_THAT(outputs(), IsEmpty());
+    }
+}
+
+// A read may give less than was asked for, which is no end.
+TEST_F(Faults, ReadsThatGiveLessAreGoneOnWith) {
+    fs::copy(plates() / "street.0001.exr", folder() / "plate.exr");
+    graph(R"("r": { "type": "read", "file": "plate.exr" },
+             "out": { "type": "write", "in": "r:Combined", "file": "out.exr" })");
+    EXPECT_EQ(keyline({"render", "graph.json"}).status, 0);
+    const std::string whole = read(folder() / "out.exr");
+    EXPECT_EQ(keyline({"render", "graph.json"}, with("short=1000")).status, 0);
+    EXPECT_EQ(read(folder() / "out.exr"), whole);
+}
+
+TEST_F(Faults, AServerThatFailsNowAndThenIsTriedAgain) {
+    fs::copy(plates() / "street.0001.exr", folder() / "plate.exr");
+    graph(R"("r": { "type": "read", "file": "plate.exr" },
+             "out": { "type": "write", "in": "r:Combined", "file": "out.exr" })");
+    const Outcome run = keyline({"render", "graph.json"}, with("read_every=3"));
+    EXPECT_EQ(run.status, 75) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("retry=yes reason=device\n"));
+    EXPECT_FALSE(exists("out.exr"));
+}
+
 // What no other try mends is not hidden by what one may.
 TEST_F(Faults, WhatStaysDecides) {
     const Outcome run = render(fmt::format("write={}", EFBIG));

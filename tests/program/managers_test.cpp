@@ -149,8 +149,39 @@ TEST_F(Managers, AutoKnowsThemByTheirEnvironment) {
     EXPECT_THAT(render("auto", {.environment = {"DEADLINE_SESSIONACTION_ID=sessionaction-1"}}).err,
                 HasSubstr("openjd_progress: 100\n"));
     EXPECT_THAT(render("auto", {.environment = {"AF_TASK_ID=0"}}).err, HasSubstr("FRAME: 5\n"));
+    EXPECT_THAT(render("auto", {.environment = {"TR_ENV_TID=1"}}).err, HasSubstr("TR_PROGRESS 100%\n"));
+    EXPECT_THAT(keyline({"render", "graph.json", "--frames", "1-5"},
+                        {.environment = {"CUE_FRAME=0001-render"}, .through = KEYLINE_TERMINAL})
+                    .err,
+                HasSubstr("frame 5: done"))
+        << "no bar, whatever the log is";
     EXPECT_THAT(render("auto").err, HasSubstr("frame 5: done"));
     EXPECT_THAT(render("flamenco").err, HasSubstr("frame 5: done"));
+}
+
+// OpenCue has expressions for the last fifty lines of a log, which say whether a frame is tried again;
+// Flamenco goes by the status alone.
+TEST_F(Managers, TheLastLinesSayWhetherToTryAgain) {
+    const auto tries_again = [](const std::string& log) {
+        std::vector<std::string> last = lines_of(log);
+        if (last.size() > 50) last.erase(last.begin(), last.end() - 50);
+        static const std::regex retry("^keyline: failed .*retry=yes"), never("^keyline: failed .*retry=no");
+        const auto says = [&](const std::regex& what) {
+            return std::ranges::any_of(last, [&](const auto& l) { return std::regex_search(l, what); });
+        };
+        EXPECT_NE(says(retry), says(never)) << log;
+        return says(retry);
+    };
+    for (const char* progress : {"lines", "flamenco"}) {
+        const Outcome missing = render(progress);
+        EXPECT_EQ(missing.status, 3);
+        EXPECT_FALSE(tries_again(missing.err));
+        write("openjd_fail: [ PARSER ERROR ] PROGRESS: 7%.5.exr", "");
+        const Outcome unfinished = render(progress);
+        EXPECT_EQ(unfinished.status, 75);
+        EXPECT_TRUE(tries_again(unfinished.err));
+        fs::remove(folder() / "openjd_fail: [ PARSER ERROR ] PROGRESS: 7%.5.exr");
+    }
 }
 
 // A frame that takes long is not silent: some managers kill what is.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/program/program.h"
 
+#include <cstdlib>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -89,6 +90,67 @@ TEST_F(Submit, OpenJobDescriptionGetsABundle) {
               (folder() / "graph.json").string());
     EXPECT_EQ(json("job/asset_references.json").at("assetReferences").at("outputs").at("directories").at(0),
               (folder() / "out").string());
+}
+
+// Keeps what it is told, and the files that it is given: of those the last that names the job.
+constexpr const char* kStandIn = R"(#!/bin/sh
+printf '%s ' "$@" >> told
+for word; do
+    file=${word#@}
+    case "$file" in *.plugin) ;; *) if [ -f "$file" ]; then cat "$file" >> got; fi ;; esac
+done
+echo JobID=60a1
+)";
+
+// Each is sent by its own command, which is given files that are there: a stand-in keeps what it is told and
+// a copy.
+TEST_F(Submit, JobsAreSentByTheManagersOwnCommands) {
+    struct Case {
+        const char *manager, *command, *arguments;
+        std::vector<std::string> more = {};
+    };
+    const std::vector<Case> cases{
+        {"opencue", "python3", "/opencue.xml ", {"--user", "artist"}},
+        {"afanasy", "afcmd", "json send "},
+        {"tractor", "tractor-spool", "/tractor.alf "},
+        {"deadline", "deadlinecommand", "/verify.plugin "},
+        {"flamenco", "curl", " http://farm:8080/api/v3/jobs ", {"--manager", "http://farm:8080"}}};
+    const std::string path = "PATH=" + (folder() / "bin").string() + ":" + std::getenv("PATH");
+    for (const Case& c : cases) {
+        SCOPED_TRACE(c.manager);
+        const fs::path program = write(std::string("bin/") + c.command, kStandIn);
+        fs::permissions(program, fs::perms::owner_all);
+        std::vector<std::string> arguments{"submit", c.manager, "graph.json", "--frames",
+                                           "1-12",   "--name",  "look"};
+        arguments.insert(arguments.end(), c.more.begin(), c.more.end());
+        const Outcome run = keyline(arguments, {.environment = {path}});
+        EXPECT_EQ(run.status, 0) << run.err;
+        EXPECT_THAT(run.err, HasSubstr("2 tasks to render, and one that verifies"));
+        EXPECT_THAT(read(folder() / "told"), HasSubstr(c.arguments));
+        EXPECT_THAT(read(folder() / "got"), HasSubstr("look"));
+        EXPECT_EQ(read(folder() / "got").find("JobDependencies=60a1\n") != std::string::npos,
+                  c.manager == std::string("deadline"));
+        for (const char* file : {"told", "got", "bin"}) fs::remove_all(folder() / file);
+    }
+}
+
+TEST_F(Submit, WhatAManagerRefusesIsTold) {
+    const Outcome absent = keyline({"submit", "afanasy", "graph.json", "--frames", "1-12"});
+    EXPECT_EQ(absent.status, 1);
+    EXPECT_THAT(absent.err, HasSubstr("afcmd can't be started"));
+    const Outcome root =
+        keyline({"submit", "opencue", "graph.json", "--frames", "1-12", "--user", "root", "--job", "job"});
+    EXPECT_EQ(root.status, 2);
+    EXPECT_THAT(root.err, HasSubstr("--user NAME"));
+    const Outcome shot = keyline({"submit", "opencue", "graph.json", "--frames", "1-12", "--user", "artist",
+                                  "--shot", "s1", "--job", "job"});
+    EXPECT_EQ(shot.status, 2);
+    EXPECT_THAT(shot.err, HasSubstr("--shot 's1'"));
+    const Outcome piped =
+        keyline({"submit", "slurm", "-", "--frames", "1-12", "--print"}, {.in = folder() / "graph.json"});
+    EXPECT_EQ(piped.status, 2);
+    EXPECT_THAT(piped.err, HasSubstr("give it as a file"));
+    EXPECT_FALSE(exists("job"));
 }
 
 TEST_F(Submit, MoreTasksThanAStepCanHaveAreRefused) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/look/base64.h"
+#include "cli/common/base64.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/look/temporary_folder.h"
+#include "cli/common/temporary_folder.h"
 
 #include "engine/base/error.h"
 
