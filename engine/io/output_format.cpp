@@ -31,7 +31,12 @@ const std::vector<OutputFormat>& output_formats() {
          .channel_sets = {"Y", "RGB", "RGBA"},
          .frames_held = 1},
         {.name = "fits", .extensions = {"fits"}, .depths = {kF, k8}, .channel_sets = {"Y"}},
-        {.name = "gif", .extensions = {"gif"}, .depths = {k8}, .channel_sets = {"RGB"}, .frames_held = 7.7},
+        {.name = "gif",
+         .extensions = {"gif"},
+         .depths = {k8},
+         .channel_sets = {"RGB"},
+         .most_pixels = 65535,
+         .frames_held = 7.7},
         {.name = "hdr", .extensions = {"hdr", "rgbe"}, .depths = {kF}, .channel_sets = {"RGB"}},
         {.name = "heif",
          .extensions = {"heic", "heif"},
@@ -45,6 +50,8 @@ const std::vector<OutputFormat>& output_formats() {
          .channel_sets = {"RGB", "RGBA"},
          .tiled = true,
          .compressions = {"rle"},
+         .least_pixels = 2,
+         .most_pixels = 8192,
          .frames_held = 1},
         {.name = "jpeg",
          .extensions = {"jpg", "jpeg", "jpe", "jif", "jfif", "jfi"},
@@ -52,12 +59,15 @@ const std::vector<OutputFormat>& output_formats() {
          .channel_sets = {"Y", "RGB"},
          .compressions = {"jpeg"},
          .has_quality = true,
+         .most_pixels = 65500,
          .frames_held = 0.25},
+        // Its writer makes six resolutions, each half of the one before.
         {.name = "jpeg2000",
          .extensions = {"jp2", "j2k"},
          .depths = {k16, k8},
          .channel_sets = {"Y", "RGB", "RGBA"},
          .straight_alpha = true,
+         .least_pixels = 32,
          .frames_held = 7.2},
         {.name = "png",
          .extensions = {"png"},
@@ -91,8 +101,9 @@ const std::vector<OutputFormat>& output_formats() {
          .straight_alpha = true,
          .compressions = {"webp"},
          .has_quality = true,
+         .most_pixels = 16383,
          .frames_held = 3.6},
-        {.name = "zfile", .extensions = {"zfile"}, .depths = {kF}, .channel_sets = {"Y"}},
+        {.name = "zfile", .extensions = {"zfile"}, .depths = {kF}, .channel_sets = {"Y"}, .least_pixels = 2},
     };
     return formats;
 }
@@ -203,6 +214,21 @@ Depth depth_of(const std::filesystem::path& file, const OutputFormat& format, De
                  {});
 }
 
+// What its writer spoils or refuses when the first rows come.
+void refuse_size(const std::filesystem::path& file, const OutputFormat& format, const Rect& window) {
+    const int width = window.width(), height = window.height();
+    if (std::min(width, height) < format.least_pixels)
+        refuse(file,
+               fmt::format("{} can't hold {} × {} pixels; each way it needs {}", format.name, width, height,
+                           format.least_pixels),
+               "write another format");
+    if (std::max(width, height) > format.most_pixels)
+        refuse(file,
+               fmt::format("{} can't hold {} × {} pixels; each way it has {} at most", format.name, width,
+                           height, format.most_pixels),
+               "write another format");
+}
+
 bool is_quality(std::string_view text) {
     int quality = 0;
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), quality);
@@ -250,6 +276,7 @@ PictureLayout picture_layout(const std::filesystem::path& file, const SinkSpec& 
     PictureLayout layout{format, order_of(file, format, spec.channels), depth_of(file, format, spec.depth),
                          compression_of(file, format, spec.compression)};
     refuse_ids(file, format, spec.channels, layout.depth);
+    refuse_size(file, format, spec.display_window);
     return layout;
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,6 +33,7 @@ struct OutputFormat {
     bool tiled = false;           // and in no other way
     std::vector<std::string_view> compressions = {};  // the default first; empty: no choice
     bool has_quality = false;                         // the first compression takes one, "jpeg:90", 1 to 100
+    int least_pixels = 1, most_pixels = std::numeric_limits<int>::max();  // of width and of height
     double frames_held = 0;  // how many times over its writer holds the frame, in the file's depth; measured
 
     bool holds(std::string_view channel_set) const;

@@ -66,7 +66,11 @@ std::optional<PictureSize> whole_png(const InputFile& file) {
         has_pixels = has_pixels || type == tag("IDAT");
         at += length + 12;
         if (at > bytes.size() || length > bytes.size()) return std::nullopt;
-        if (type == tag("IEND")) return has_pixels && at == bytes.size() ? std::optional(size) : std::nullopt;
+        if (type == tag("IEND")) {
+            constexpr uint64_t kSum = 0xAE426082;
+            const bool whole = has_pixels && at == bytes.size() && bytes.number(at - 4, 4) == kSum;
+            return whole ? std::optional(size) : std::nullopt;
+        }
         if (type == 0) return std::nullopt;
     }
 }

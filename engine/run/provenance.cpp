@@ -207,16 +207,23 @@ std::optional<Value> read_inside(const fs::path& file) {
     return std::nullopt;
 }
 
-// Of the very bytes that the output has now.
-std::optional<Value> read_beside(const fs::path& file) {
+// What lies beside an output: nothing where nothing does that can be read.
+std::optional<Value> beside(const fs::path& file) {
     const fs::path beside = file.string() + kBeside;
     std::error_code error;
     if (!fs::is_regular_file(beside, error)) return std::nullopt;
-    const std::optional<Value> all = parsed(read_text(beside, "the origin"), beside);
-    const Value *content = all ? all->find("content") : nullptr,
-                *origin = all ? all->find("provenance") : nullptr;
-    if (!content || !origin || content->text != to_string(file_content(file))) return std::nullopt;
-    return *origin;
+    return parsed(read_text(beside, "the origin"), beside);
+}
+
+bool tells_of_these_bytes(const Value& beside, const fs::path& file) {
+    const Value* content = beside.find("content");
+    return content && content->text == to_string(file_content(file));
+}
+
+std::optional<Value> read_beside(const fs::path& file) {
+    const std::optional<Value> all = beside(file);
+    const Value* origin = all && tells_of_these_bytes(*all, file) ? all->find("provenance") : nullptr;
+    return origin ? std::optional(*origin) : std::nullopt;
 }
 
 }  // namespace
@@ -236,6 +243,12 @@ void write_provenance_beside(const fs::path& output, const std::string& text) {
 
 std::optional<Value> read_provenance(const fs::path& file) {
     return holds_provenance(file) ? read_inside(file) : read_beside(file);
+}
+
+bool was_changed_since_made(const fs::path& file) {
+    if (holds_provenance(file)) return false;
+    const std::optional<Value> all = beside(file);
+    return all && !tells_of_these_bytes(*all, file);
 }
 
 }  // namespace keyline

@@ -56,6 +56,10 @@ void write_provenance_beside(const std::filesystem::path& output, const std::str
 // as describe_image() does.
 std::optional<Value> read_provenance(const std::filesystem::path& file);
 
+// Whether the file has other bytes than what lies beside it tells of; false where nothing does.  Zeros that a
+// lost machine left are seen so in formats that have no sum of their own.
+bool was_changed_since_made(const std::filesystem::path& file);
+
 // Why the second is not the first, for people: "'smooth.sigma' is 2, and was 1.4", "the input
 // 'street.0001.exr' of 'render' is another one".  Empty where no difference is known.
 std::vector<std::string> differences(const Value& was, const Value& is);

@@ -303,8 +303,9 @@ private:
 
     // A file of data appears whole: it is there, or it is not.
     static bool is_there(const Sink& s) {
-        return s.request.stream.is_data() ? std::filesystem::exists(s.request.file)
-                                          : is_finished(s.request.file, s.request.spec);
+        const bool finished = s.request.stream.is_data() ? std::filesystem::exists(s.request.file)
+                                                         : is_finished(s.request.file, s.request.spec);
+        return finished && !was_changed_since_made(s.request.file);
     }
 
     void sign(ResolvedFrame& frame) const {

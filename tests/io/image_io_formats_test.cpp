@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/base/error.h"
 #include "image_io_support.h"
 
 #include <cmath>
@@ -91,6 +92,27 @@ TEST_P(ImageIoFormat, ReadsBackWhatItWrote) {
     for (std::size_t k = 0; k < in.channels.size(); ++k)
         for (std::size_t i = 0; i < in.channels[k].size(); ++i)
             ASSERT_NEAR(out.channels[k][i], in.channels[k][i], c.step * loss) << c.channels[k] << ' ' << i;
+}
+
+// A writer may spoil what is too small for it without a word.
+TEST_P(ImageIoFormat, ReadsBackTheSmallestPictureThatItTakes) {
+    const Case& c = GetParam();
+    const Folder folder;
+    const auto file = folder / ("a." + c.extension);
+    const auto takes = [&](int side) {
+        try {
+            check_image(file, spec_for(ramp(side, side, c.channels), c.depth, c.compression));
+            return true;
+        } catch (const Failure&) {
+            return false;
+        }
+    };
+    int side = 1;
+    while (side < 64 && !takes(side)) ++side;
+    const Pixels in = ramp(side, side, c.channels);
+    write(file, in, spec_for(in, c.depth, c.compression));
+    EXPECT_EQ(read(file).width, side);
+    EXPECT_EQ(read(file).height, side);
 }
 
 std::string case_name(const ::testing::TestParamInfo<Case>& info) {

@@ -31,12 +31,12 @@ TEST(ImageIoWrite, AppearsOnlyWhenItIsFinished) {
 
 TEST(ImageIoWrite, LeavesNothingWhenItIsGivenUp) {
     const Folder folder;
-    const Pixels in = ramp(10, 100, {"R", "G", "B"});
+    const Pixels in = ramp(40, 100, {"R", "G", "B"});
     for (const char* name : {"a.png", "a.tif", "a.jpg", "a.tga", "a.webp", "a.jp2", "a.hdr", "a.dpx"}) {
         auto sink = create_image(folder / name, spec_for(in));
-        std::vector<float> values(10 * 64, 0.5F);  // the first of two chunks
+        std::vector<float> values(40 * 64, 0.5F);  // the first of two chunks
         const Plane plane{
-            reinterpret_cast<std::byte*>(values.data()), 40, SampleType::kFloat, {0, 0, 10, 64}};
+            reinterpret_cast<std::byte*>(values.data()), 160, SampleType::kFloat, {0, 0, 40, 64}};
         sink->commit(sink->encode(0, std::vector<Plane>(3, plane)));
         EXPECT_EQ(error_of([&] { sink->finish(); }).kind, ErrorKind::kInternal) << name;
         testing::internal::CaptureStderr();

@@ -30,6 +30,26 @@ TEST(PictureHelper, IsNotStartedToCheckWhatAPictureCanHold) {
     EXPECT_FALSE(picture_helper_runs());
 }
 
+TEST(PictureHelper, IsNotStartedToCheckHowManyPixelsAFormatHolds) {
+    const auto fault = [](const char* file, int width, int height) -> std::string {
+        SinkSpec spec = colour(Depth::kAuto);
+        spec.display_window = spec.data_window = {0, 0, width, height};
+        try {
+            check_image(file, spec);
+            return "";
+        } catch (const Failure& failure) {
+            return failure.what();
+        }
+    };
+    EXPECT_EQ(fault("a.webp", 16383, 1), "");
+    EXPECT_THAT(fault("a.webp", 1, 16384),
+                testing::HasSubstr("webp can't hold 1 × 16384 pixels; each way it has 16383 at most"));
+    EXPECT_EQ(fault("a.jp2", 32, 32), "");
+    EXPECT_THAT(fault("a.jp2", 640, 31),
+                testing::HasSubstr("jpeg2000 can't hold 640 × 31 pixels; each way it needs 32"));
+    EXPECT_FALSE(picture_helper_runs());
+}
+
 TEST(PictureHelper, IsForAllNamesButThoseOfOpenExr) {
     EXPECT_FALSE(is_other_format("a.exr"));
     EXPECT_FALSE(is_other_format("a.EXR"));

@@ -15,14 +15,15 @@ using testing::HasSubstr;
 
 struct Format {
     const char *name, *extension, *more;  // of the write
-    bool is_followed = true;              // to its end: its structure tells of every byte
+    bool is_followed = true;              // its structure alone tells of every byte
+    std::size_t unseen = 0;               // zeros fewer than these are pixels that nothing tells of
 };
 
-// A compressed file of two thirds of its bytes and zeros is damaged in its structure; one of plain samples is
-// black at the bottom, which no structure tells.
+// Without its origin a file is known by its structure: that of a format of plain samples tells nothing of
+// zeros in them.
 const std::vector<Format> kFormats = {
     {"exr", "exr", ""},
-    {"exr_none", "exr", R"(, "compression": "none")"},
+    {"exr_none", "exr", R"(, "compression": "none")", true, 4096},
     {"exr_piz", "exr", R"(, "compression": "piz")"},
     {"exr_dwaa", "exr", R"(, "compression": "dwaa")"},
     {"png", "png", ""},
@@ -32,6 +33,10 @@ const std::vector<Format> kFormats = {
     {"jpg", "jpg", R"(, "compression": "jpeg:95")"},
     {"tga", "tga", "", false},
     {"webp", "webp", "", false},
+    {"bmp", "bmp", "", false},
+    {"hdr", "hdr", "", false},
+    {"jp2", "jp2", "", false},
+    {"ppm", "ppm", "", false},
 };
 
 class SkipExisting : public ProgramTest, public testing::WithParamInterface<Format> {
@@ -45,17 +50,26 @@ protected:
         whole_ = read(file());
     }
 
-    Outcome render() const {
-        return keyline({"render", "graph.json", "--frames", "1", "--skip-existing", "--progress", "lines"});
+    Outcome render(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> arguments = {"render",          "graph.json", "--frames", "1",
+                                              "--skip-existing", "--progress", "lines"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return keyline(arguments);
     }
     fs::path file() const { return folder() / fmt::format("out.1.{}", GetParam().extension); }
 
-    void expect_rendered_again(const std::string& damaged) const {
+    void expect_rendered_again(const std::string& damaged, const std::vector<std::string>& more = {}) const {
         write(file().filename(), damaged);
-        const Outcome run = render();
+        const Outcome run = render(more);
         EXPECT_EQ(run.status, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr("frame 1: done"));
-        EXPECT_EQ(read(file()).size(), whole_.size());
+        if (more.empty()) {
+            EXPECT_EQ(read(file()).size(), whole_.size());
+        }
+    }
+
+    std::string with_zeros(std::size_t last) const {
+        return whole_.substr(0, whole_.size() - last) + std::string(last, '\0');
     }
 
     std::string whole_;
@@ -72,17 +86,28 @@ TEST_P(SkipExisting, RendersAgainWhatWasCutOff) {
         SCOPED_TRACE(share);
         expect_rendered_again(whole_.substr(0, static_cast<std::size_t>(share * double(whole_.size()))));
     }
-    if (GetParam().is_followed) expect_rendered_again(whole_.substr(0, whole_.size() - 1));
+    expect_rendered_again(whole_.substr(0, whole_.size() - 1));
 }
 
+// What a machine leaves that lost its power.
 TEST_P(SkipExisting, RendersAgainWhatEndsInZeros) {
+    for (const std::size_t last : {std::size_t{64}, std::size_t{4096}, whole_.size() / 2}) {
+        SCOPED_TRACE(last);
+        if (last >= GetParam().unseen && with_zeros(last) != whole_) expect_rendered_again(with_zeros(last));
+    }
+}
+
+TEST_P(SkipExisting, KnowsAFileByItsStructureWhereNothingTellsOfItsBytes) {
+    fs::remove(file().string() + ".origin.json");
+    expect_rendered_again(whole_.substr(0, whole_.size() / 2), {"--no-provenance"});
     if (!GetParam().is_followed) return;
-    const std::string half = whole_.substr(0, whole_.size() / 2);
-    expect_rendered_again(half + std::string(whole_.size() - half.size(), '\0'));
+    whole_ = read(file());  // without the text of its origin
+    expect_rendered_again(whole_.substr(0, whole_.size() - 1), {"--no-provenance"});
+    expect_rendered_again(with_zeros(whole_.size() / 2), {"--no-provenance"});
 }
 
 TEST_P(SkipExisting, RendersAgainWhatIsOfAnotherSize) {
-    graph(fmt::format(R"("c":   {{ "type": "constant", "color": [0.5, 0.25, 0, 1], "size": [24, 16] }},
+    graph(fmt::format(R"("c":   {{ "type": "constant", "color": [0.5, 0.25, 0, 1], "size": [48, 32] }},
                          "out": {{ "type": "write", "in": "c", "channels": ["R", "G", "B"],
                                    "file": "out.#.{}"{} }})",
                       GetParam().extension, GetParam().more));
