@@ -97,7 +97,7 @@ std::string faults(const RunReport& report, const char* title, bool (*is)(const 
 // Columns over the frames in their order; of many frames, the highest of those that share a column.
 class Plot {
 public:
-    Plot(const RunReport& report, std::function<double(const FrameReport&)> value) : report_(report) {
+    Plot(const RunReport& report, const std::function<double(const FrameReport&)>& value) : report_(report) {
         const std::size_t frames = report.frames.size(), columns = std::min(frames, kMostColumns);
         values_.resize(columns);
         failed_.resize(columns);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 // The commands that the documents show, run on what is shipped, and the examples of the manual.
@@ -146,6 +147,31 @@ TEST_F(Documents, TheManualsExamplesAreSoundOrToldAsItSays) {
         ++examples;
     }
     EXPECT_GT(examples, 0U);
+}
+
+// A table of faults is worth what its tests are.
+TEST_F(Documents, EveryFaultOfThePageOnFarmsNamesItsTest) {
+    const fs::path repository = fs::path(KEYLINE_DOCS).parent_path();
+    std::string sources;
+    for (const auto& entry : fs::recursive_directory_iterator(repository / "tests"))
+        if (entry.path().extension() == ".cpp") sources += read(entry.path());
+    std::istringstream page(read(fs::path(KEYLINE_DOCS) / "farm.md"));
+    const std::regex row(R"(\| .+ \| .+ \| `(\w+)\.(\w+)` \|)"),
+        script(R"(\| .+ \| .+ \| `(tests/.+\.sh)` \|)");
+    int faults = 0;
+    std::smatch m;
+    for (std::string line; std::getline(page, line);) {
+        if (std::regex_match(line, m, script)) {
+            EXPECT_TRUE(fs::exists(repository / m.str(1))) << line;
+        } else if (std::regex_match(line, m, row)) {
+            const bool is_there = sources.find("(" + m.str(1) + ", " + m.str(2) + ")") != std::string::npos;
+            EXPECT_TRUE(is_there) << line;
+        } else {
+            continue;
+        }
+        ++faults;
+    }
+    EXPECT_GE(faults, 30);
 }
 
 TEST_F(Documents, TheManualIsTheProgramsHelp) {
