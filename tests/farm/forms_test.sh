@@ -9,7 +9,7 @@
 set -euo pipefail
 manager=$1 keyline=$(realpath "$2")
 forms=$(cd "$(dirname "$0")" && pwd)/forms
-declare -A readers=([opencue]=xmllint [afanasy]=jq [tractor]=tclsh [deadline]=bash [flamenco]=node)
+declare -A readers=([opencue]=xmllint [afanasy]=jq [tractor]=tclsh [deadline]=bash [flamenco]=node [openjd]=python3)
 command -v "${readers[$manager]}" > /dev/null || { echo "skipped: ${readers[$manager]} is not installed"; exit 77; }
 
 work=$(mktemp -d "/tmp/keyline form XXXXXX")
@@ -121,6 +121,12 @@ flamenco() {
     read_form job/flamenco.json run
     "$keyline" submit flamenco "a shot.json" --frames 1-5x2,8,9 --job steps
     grep -q '"frames": "1,3,5,8-9"' steps/flamenco.json || fail "$(grep frames steps/flamenco.json)"
+}
+
+openjd() {
+    "$keyline" "${render[@]/--job/--bundle}"
+    # The workers' own Keyline, in their path.
+    PATH=$(dirname "$keyline"):$PATH python3 "$forms/openjd.py" job run
 }
 
 "$manager"
