@@ -48,6 +48,7 @@ void add_commands(const Command& program) {
     add_verify(program);
     add_provenance(program);
     add_submit(program);
+    add_test(program);
     add_completion(program);
 }
 

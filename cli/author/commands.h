@@ -10,5 +10,6 @@ namespace keyline::cli {
 
 void add_completion(const Command& program);
 void add_new(const Command& program);
+void add_test(const Command& program);
 
 }  // namespace keyline::cli

@@ -51,6 +51,23 @@ Error without_added(Error e) {
     return e;
 }
 
+// How large a magnified region becomes, and a pixel of it.
+constexpr int kMagnified = 1024, kLeastCell = 4, kMostCell = 64;
+
+// Lines between the pixels of a magnified region, as strokes.
+std::string grid_text(int width, int height, int cell) {
+    std::string lines;
+    const auto add = [&](int x0, int y0, int x1, int y1) {
+        lines += fmt::format("{}{{ \"width\": 1, \"points\": [[{}, {}], [{}, {}]] }}",
+                             lines.empty() ? "" : ", ", x0, y0, x1, y1);
+    };
+    for (int x = 1; x < width; ++x) add(x * cell, 0, x * cell, height * cell);
+    for (int y = 1; y < height; ++y) add(0, y * cell, width * cell, y * cell);
+    return fmt::format(
+        R"({{ "strokes": 1, "display": [0, 0, {0}, {1}], "window": [0, 0, {0}, {1}], "lines": [{2}] }})",
+        width * cell, height * cell, lines);
+}
+
 // What goes wrong is told as in a render.
 class Teller final : public RenderObserver {
 public:
@@ -89,7 +106,7 @@ JsonWriter& PictureNodes::begin(const std::string& id, const char* type) {
     return json_.key(id).begin_object().field("type", type);
 }
 
-std::string PictureNodes::show(const std::string& node) {
+std::string PictureNodes::source_of(const std::string& node) {
     const std::string id = node.substr(0, node.find(':'));
     const int index = graph_.index_of(id);
     if (index < 0) fail(ErrorKind::kGraph, "there is no node " + in_quotes(id), hint_for(graph_, id));
@@ -97,17 +114,72 @@ std::string PictureNodes::show(const std::string& node) {
     if (!can_be_shown(shown))
         fail(ErrorKind::kGraph, fmt::format("{} gives nothing to be seen", shown.title()),
              "name a node that gives pixels or strokes");
-    std::string from = node;
     if (shown.type->gives == kStrokes) {
-        from = next();
-        begin(from, "draw").field("in", node).end_object();
-    } else if (!options_.channel.empty()) {
-        from = id + ":" + options_.channel;
+        std::string drawn = next();
+        begin(drawn, "draw").field("in", node).end_object();
+        return drawn;
     }
+    return options_.channel.empty() ? node : id + ":" + options_.channel;
+}
+
+std::string PictureNodes::show(const std::string& node) {
+    const std::string source = source_of(node);
+    const bool is_shown = is_for_display(graph_, graph_.index_of(node.substr(0, node.find(':'))));
     std::string out = next();
-    begin(out, "falsecolor").field("in", from);
+    begin(out, "falsecolor").field("in", source);
     if (options_.range) json_.key("range").list(std::vector(options_.range->begin(), options_.range->end()));
-    json_.field("referred", is_for_display(graph_, index) ? "display" : "scene").end_object();
+    json_.field("referred", is_shown ? "display" : "scene").end_object();
+    return out;
+}
+
+std::string PictureNodes::wiped(const std::string& left, const std::string& right) {
+    constexpr int kLine = 2;
+    const std::string pictures[] = {show(left), show(right)};
+    const std::string half = next(), line = next(), thin = next(), both = next();
+    std::string out = next();
+    begin(half, "crop").field("in", pictures[0]).key("region").begin_array();
+    json_.value("= x").value("= y").value("= floor(width / 2)").value("= height").end_array().end_object();
+    begin(line, "constant").key("color").list(std::vector{1, 1, 1}).field("like", pictures[1]).end_object();
+    begin(thin, "crop").field("in", line).key("region").begin_array();
+    json_.value("= x + floor(width / 2) - 1")
+        .value("= y")
+        .value(kLine)
+        .value("= height")
+        .end_array()
+        .end_object();
+    begin(both, "over").field("fg", half).field("bg", pictures[1]).end_object();
+    begin(out, "over").field("fg", thin).field("bg", both).end_object();
+    return out;
+}
+
+std::string PictureNodes::difference(const std::string& a, const std::string& b) {
+    const std::string pictures[] = {show(a), show(b)};
+    const std::string apart = next();
+    std::string out = next();
+    begin(apart, "math")
+        .field("in", pictures[0])
+        .field("op", "subtract")
+        .field("b", pictures[1])
+        .end_object();
+    begin(out, "math").field("in", apart).field("op", "abs").end_object();
+    return out;
+}
+
+std::string PictureNodes::magnified(const std::string& picture, const std::array<int, 4>& region,
+                                    const std::string& grid) {
+    const auto& [x, y, width, height] = region;
+    const int cell = std::clamp(kMagnified / std::max(width, height), kLeastCell, kMostCell);
+    const std::string large = next(), below = next(), framed = next(), read = next(), lines = next();
+    std::string out = next();
+    begin(large, "transform").field("in", picture).field("scale", cell).field("filter", "nearest");
+    json_.key("center").list(std::vector{0, 0}).key("translate").list(std::vector{-x * cell, -y * cell});
+    json_.end_object();
+    begin(below, "constant").key("size").list(std::vector{width * cell, height * cell}).end_object();
+    begin(framed, "over").field("fg", large).field("bg", below).end_object();
+    std::ofstream(grid) << grid_text(width, height, cell);
+    begin(read, "strokes_read").field("file", grid).end_object();
+    begin(lines, "draw").field("in", read).key("color").list(std::vector{0.3, 0.3, 0.3}).end_object();
+    begin(out, "over").field("fg", lines).field("bg", framed).end_object();
     return out;
 }
 
@@ -161,6 +233,12 @@ std::string PictureNodes::write(const std::string& picture, const std::string& f
     json_.key("channels").list(std::vector<std::string>{"R", "G", "B"});
     if (is_other_format(file)) json_.field("depth", "uint8");
     json_.end_object();
+    return out;
+}
+
+std::string PictureNodes::write_samples(const std::string& node, const std::string& file) {
+    std::string out = next();
+    begin(out, "write").field("in", node).field("file", file).field("depth", "float").end_object();
     return out;
 }
 

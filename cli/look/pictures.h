@@ -31,6 +31,17 @@ public:
     // Failure (kGraph) for a node that is not there or has nothing to be seen.
     std::string show(const std::string& node);
 
+    // The left half of one node's picture beside the right half of another's.
+    std::string wiped(const std::string& left, const std::string& right);
+
+    // How far two nodes' pictures are apart.
+    std::string difference(const std::string& a, const std::string& b);
+
+    // A region of a picture, left, top, width and height, so large that each pixel is seen, with lines
+    // between them.  `grid` is where the lines are kept.
+    std::string magnified(const std::string& picture, const std::array<int, 4>& region,
+                          const std::string& grid);
+
     // The same within a width and a height.
     std::string show_small(const std::string& node, int width, int height);
 
@@ -43,11 +54,15 @@ public:
     // Writes a picture; returns the node's id, for GraphArguments::only.
     std::string write(const std::string& picture, const std::string& file);
 
+    // A node's own samples, as 32-bit floats.
+    std::string write_samples(const std::string& node, const std::string& file);
+
     // The whole object.
     std::string text() const { return json_.text() + "}"; }
 
 private:
     JsonWriter& begin(const std::string& id, const char* type);
+    std::string source_of(const std::string& node);  // its pixels, in the channel that was asked for
     std::string next();
 
     const Graph& graph_;

@@ -23,8 +23,10 @@ namespace {
 struct ViewArguments {
     GraphArguments graph;
     std::vector<std::string> nodes;
-    std::string file, channel, range, as;
+    std::string file, channel, range, as, compare, pixels;
 };
+
+constexpr int kMostMagnified = 256;  // pixels across
 
 double number_of(const std::string& text) {
     double out = 0;
@@ -65,6 +67,41 @@ int tell_what_is_wrong(const ViewArguments& arguments) {
     return exit_status(diagnostics);
 }
 
+// Of --pixel-grid.
+std::array<int, 4> read_region(const std::string& text) {
+    std::array<int, 4> out{};
+    try {
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const std::size_t end = std::min(text.find(',', begin), text.size());
+            if (begin > text.size() || (end == text.size()) != (i + 1 == out.size()))
+                fail(ErrorKind::kGraph, "it must be X,Y,WIDTH,HEIGHT");
+            out[i] = parse_count(text.substr(begin, end - begin), i < 2 ? -kMaxCoordinate : 1,
+                                 i < 2 ? kMaxCoordinate : kMostMagnified);
+            begin = end + 1;
+        }
+    } catch (const Failure& f) {
+        rethrow_with(f, [&](Error& e) { e.place = {"--pixel-grid " + text, 0, 0}; });
+    }
+    return out;
+}
+
+std::string picture_of(PictureNodes& added, const ViewArguments& arguments,
+                       const std::vector<std::string>& nodes, const TemporaryFolder& folder) {
+    if (arguments.compare.empty())
+        return nodes.size() == 1 ? added.show(nodes[0]) : added.sheet(nodes, folder / "names.json");
+    if (arguments.nodes.size() != 2)
+        throw Failure(
+            {ErrorKind::kGraph, {"--compare " + arguments.compare, 0, 0}, {}, "it takes two nodes", {}});
+    if (arguments.compare == "wipe") return added.wiped(nodes[0], nodes[1]);
+    if (arguments.compare == "difference") return added.difference(nodes[0], nodes[1]);
+    throw Failure({ErrorKind::kGraph,
+                   {"--compare " + arguments.compare, 0, 0},
+                   {},
+                   "it must be wipe or difference",
+                   {}});
+}
+
 // One node's picture, or a sheet of several; `size` is what it has to fit into, where that is bounded.
 int make(const ViewArguments& arguments, const std::string& file,
          const std::optional<std::array<int, 2>>& size) {
@@ -75,8 +112,9 @@ int make(const ViewArguments& arguments, const std::string& file,
     if (nodes.empty()) return tell_what_is_wrong(arguments);
     const TemporaryFolder folder;
     PictureNodes added(*graph, {arguments.channel, read_range(arguments.range)});
-    std::string picture =
-        nodes.size() == 1 ? added.show(nodes[0]) : added.sheet(nodes, folder / "names.json");
+    std::string picture = picture_of(added, arguments, nodes, folder);
+    if (!arguments.pixels.empty())
+        picture = added.magnified(picture, read_region(arguments.pixels), folder / "grid.json");
     if (size) picture = added.fitted(picture, *size);
     GraphArguments all = arguments.graph;
     all.only = {added.write(picture, file)};
@@ -97,7 +135,7 @@ Bitmap bitmap_of(const std::string& file) {
     Bitmap out{picture.width, picture.height, {}};
     for (std::size_t i = 0; i < picture.rgb[0].size(); ++i)
         for (const std::vector<float>& channel : picture.rgb)
-            out.rgb.push_back(static_cast<uint8_t>(channel[i] * 255 + 0.5F));
+            out.rgb.push_back(static_cast<uint8_t>(std::lround(channel[i] * 255)));
     return out;
 }
 
@@ -148,6 +186,10 @@ void add_view(const Command& program) {
     command.option(
         "--range", arguments->range, "A,B",
         "What numbers are shown black and white; auto, each frame's least and largest, when absent");
+    command.option("--compare", arguments->compare, "wipe|difference",
+                   "Two nodes in one picture: half of each, or how far apart they look");
+    command.option("--pixel-grid", arguments->pixels, "X,Y,WIDTH,HEIGHT",
+                   "Show this region alone, each pixel large, with lines between them");
     command.option("--as", arguments->as, "kitty|iterm|sixel|blocks",
                    "How the terminal shows pictures; found out when absent");
     add_graph_value_options(command, arguments->graph);

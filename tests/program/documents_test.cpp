@@ -128,6 +128,13 @@ TEST_F(Documents, TheWayFromAFileToAPictureIsOne) {
     EXPECT_TRUE(exists("out/night.png"));
 }
 
+TEST_F(Documents, TheTestsOfThePageOnTestsPass) {
+    const std::string page = read(fs::path(KEYLINE_DOCS) / "tests.md");
+    write("tests.json", blocks_in(page).front().text);
+    expect_that_commands_work(page);
+    EXPECT_TRUE(exists("results.xml"));
+}
+
 TEST_F(Documents, TheManualsCommandsWork) {
     expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "graphs.md"));
 }

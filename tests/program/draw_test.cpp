@@ -50,6 +50,22 @@ TEST_F(Draw, WithoutPictures) {
     EXPECT_THAT(drawing(), Not(HasSubstr("data:image")));
 }
 
+TEST_F(Draw, APageThatStandsByItself) {
+    sound();
+    const Outcome run = keyline({"draw", "graph.json", "-o", "graph.html"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const std::string page = read(folder() / "graph.html");
+    EXPECT_THAT(page, ::testing::StartsWith("<!DOCTYPE html>"));
+    for (const char* text :
+         {"<h2>blur <small>gaussian</small></h2>", "<td>sigma</td><td>2.5</td>",
+          "<td>data window</td><td>32 × 16 at (0, 0)</td>", "data:image/jpeg;base64,/9j/",
+          "<td>R</td><td class=\"number\">0.2</td>", "&lt;out&gt;&amp;.exr", "id=\"node0\""})
+        EXPECT_THAT(page, HasSubstr(text));
+    EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
+    EXPECT_THAT(page, Not(HasSubstr("<link")));
+    EXPECT_EQ(files(), (std::vector<std::string>{"graph.html", "graph.json"}));
+}
+
 TEST_F(Draw, GroupsAreBoxes) {
     write("soft.json", R"({ "keyline": 1, "inputs": { "in": {} }, "outputs": { "out": "b" },
                             "nodes": { "b": { "type": "gaussian", "in": "in" } } })");
@@ -99,7 +115,7 @@ TEST_F(Draw, IsSvg) {
     sound();
     const Outcome run = keyline({"draw", "graph.json", "-o", "graph.pdf"});
     EXPECT_EQ(run.status, 2);
-    EXPECT_EQ(run.err, "-o graph.pdf: error: a drawing is a file .svg\n");
+    EXPECT_EQ(run.err, "-o graph.pdf: error: a drawing is a file .svg, or a page .html\n");
 }
 
 }  // namespace

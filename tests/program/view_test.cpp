@@ -59,6 +59,37 @@ TEST_F(View, SeveralNodesMakeASheet) {
                 HasSubstr("676 × 228 at (0, 0), 3 channels\n  R G B uint8"));
 }
 
+// The dot covers 8 × 8 pixels of 'comp'; 'c' is the same without it.
+TEST_F(View, TwoNodesInOnePicture) {
+    EXPECT_EQ(view({"comp", "c", "--compare", "wipe", "-o", "wipe.exr"}).status, 0);
+    EXPECT_EQ(view({"c", "comp", "--compare", "wipe", "-o", "other.exr"}).status, 0);
+    EXPECT_EQ(view({"c", "-o", "c.exr"}).status, 0);
+    const Image wipe = picture("wipe.exr"), other = picture("other.exr"), c = picture("c.exr");
+    EXPECT_GT(wipe.at("R", 3, 3), c.at("R", 3, 3));
+    EXPECT_EQ(other.at("R", 3, 3), c.at("R", 3, 3));
+    EXPECT_EQ(wipe.at("R", 20, 3), c.at("R", 20, 3));
+    EXPECT_EQ(wipe.at("R", 15, 3), 1.0F) << "the line between them";
+
+    EXPECT_EQ(view({"c", "comp", "--compare", "difference", "-o", "apart.exr"}).status, 0);
+    EXPECT_GT(picture("apart.exr").at("R", 3, 3), 0.0F);
+    EXPECT_EQ(picture("apart.exr").at("R", 20, 12), 0.0F);
+    EXPECT_EQ(view({"c", "--compare", "wipe", "-o", "x.exr"}).err,
+              "--compare wipe: error: it takes two nodes\n");
+    EXPECT_EQ(view({"c", "comp", "--compare", "flip", "-o", "x.exr"}).err,
+              "--compare flip: error: it must be wipe or difference\n");
+}
+
+TEST_F(View, PixelsOfARegionAreLargeAndApart) {
+    EXPECT_EQ(view({"comp", "--pixel-grid", "6,0,4,2", "-o", "grid.exr"}).status, 0);
+    EXPECT_EQ(view({"comp", "-o", "comp.exr"}).status, 0);
+    const Image grid = picture("grid.exr"), comp = picture("comp.exr");
+    EXPECT_EQ(grid.display, (Rect{0, 0, 256, 128}));
+    for (const int x : {6, 7, 8, 9}) EXPECT_EQ(grid.at("R", (x - 6) * 64 + 32, 32), comp.at("R", x, 0)) << x;
+    EXPECT_LT(grid.at("R", 64, 32), comp.at("R", 6, 0));
+    EXPECT_EQ(view({"comp", "--pixel-grid", "6,0,4", "-o", "x.exr"}).err,
+              "--pixel-grid 6,0,4: error: it must be X,Y,WIDTH,HEIGHT\n");
+}
+
 TEST_F(View, StrokesAreDrawn) {
     graph(R"("p": { "type": "read", "file": ")" + (plates() / "street.0001.exr").string() + R"(" },
              "lines": { "type": "contours", "in": "p", "layer": "CryptoObject" })");
