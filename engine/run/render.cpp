@@ -190,7 +190,9 @@ private:
     // Where it is asked to wait, a frame is looked at until its inputs are whole.
     std::optional<ResolvedFrame> resolve_when_ready(int frame, const ResolveOptions& resolving,
                                                     Diagnostics& diagnostics) {
-        constexpr std::chrono::milliseconds kBetweenLooks(200);
+        // Looks become rare: to open some formats takes a library's start.
+        constexpr std::chrono::milliseconds kLongestPause(2000);
+        std::chrono::milliseconds pause(200);
         const auto end = std::chrono::steady_clock::now() + options_.wait_inputs;
         std::string told;
         while (true) {
@@ -208,7 +210,8 @@ private:
                 observer_.frame_waits(frame, what);
                 told = what.what;
             }
-            std::this_thread::sleep_for(kBetweenLooks);
+            std::this_thread::sleep_for(pause);
+            pause = std::min(2 * pause, kLongestPause);
         }
     }
 

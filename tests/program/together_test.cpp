@@ -74,7 +74,7 @@ TEST_F(Together, AFolderThatIsMovedAwayIsNoSuccess) {
     graph(R"("c":    { "type": "constant", "color": [0.5, 0.25, 0], "size": ["${frame}", 3000] },
              "blur": { "type": "gaussian", "in": "c", "sigma": 60 },
              "out":  { "type": "write", "in": "blur", "file": "out/a.####.exr" })");
-    Process process(render("1,2000"), {.folder = folder()});
+    Process process(render("1,1000"), {.folder = folder()});
     ASSERT_TRUE(process.read_until("frame 1: done"));
     fs::rename(folder() / "out", folder() / "old");
     const Outcome run = process.wait();
