@@ -37,7 +37,9 @@ hand() {
   echo
   echo "![$1](images/$1.webp)"
   echo
-  echo "$2"
+  echo "$2 Six frames of a moving shot, with lines that \`steady\` holds together:"
+  echo
+  echo "![$1 in motion](images/$1-frames.webp)"
   echo
 }
 

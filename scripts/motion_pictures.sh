@@ -13,18 +13,26 @@ images=$PWD/docs/images
 scratch=$(mktemp -d)
 trap 'rm -r "$scratch"' EXIT
 
-# HAND FRAMES: to $scratch/HAND.####.png, with lines that hold together
+# GRAPH OPTION…: what it says is shown where it fails
+keyline() {
+  "$keyline" render "$@" --progress none --no-provenance 2> "$scratch/log" || (cat "$scratch/log" && false)
+}
+
+# HAND: all frames, to $scratch/HAND.####.png, with lines that hold together
 render() {
-  "$keyline" render "graphs/$1.json" --frames "$2" --progress none --no-provenance --var plate="$sequence" \
-    --var out="$scratch/$1.####.png"
+  sed -e "s#\"groups/#\"$PWD/graphs/groups/#" -e 's#"file": "[^"]*plate[^"]*"#&, "missing": "black"#' \
+    -e 's#"in": "lines"#"in": "still"#' \
+    -e '/"lines": *{/a "still": { "type": "steady", "in": "lines", "vector": "render:Vector" },' \
+    "graphs/$1.json" > "$scratch/$1.json"
+  keyline "$scratch/$1.json" --frames 1-24 --var plate="$sequence" --var out="$scratch/$1.####.png"
 }
 
 # HAND: six frames, two thirds as large, three beside each other
 sheet() {
   local nodes="" below="page" i=0 row
-  for frame in 1 5 9 13 17 21; do
+  for frame in 01 05 09 13 17 21; do
     row=$((i / 3))
-    nodes+="\"f$i\": { \"type\": \"read\", \"file\": \"$1.####.png\", \"frame\": $frame },
+    nodes+="\"f$i\": { \"type\": \"read\", \"file\": \"$1.00$frame.png\" },
             \"m$i\": { \"type\": \"transform\", \"in\": \"f$i\", \"scale\": 0.6666667, \"center\": [0, 0],
                        \"translate\": [$((i % 3 * 322)), $((row * 182))] },
             \"o$i\": { \"type\": \"over\", \"fg\": \"m$i\", \"bg\": \"$below\" }, "
@@ -36,11 +44,11 @@ sheet() {
   "page": { "type": "constant", "color": [1, 1, 1], "size": [964, 362] }, $nodes
   "out":  { "type": "write", "in": "$below", "file": "$images/$1-frames.webp", "channels": ["R", "G", "B"] } } }
 EOF
-  "$keyline" render "$scratch/sheet.json" --progress none --no-provenance
+  keyline "$scratch/sheet.json"
 }
 
 for hand in cleanup brush pencil technical comic; do
-  render $hand 1-24
+  render $hand
   sheet $hand
 done
 img2webp -loop 0 -lossy -q 60 -m 6 -d 83 "$scratch"/brush.*.png -o "$images/motion.webp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace keyline {
 
@@ -112,10 +113,10 @@ private:
 class Fitter {
 public:
     // Of a closed line the last point is the first.
-    Fitter(const std::vector<CurvePoint>& points, bool closed, double tolerance)
-        : points_(points), closed_(closed), tolerance_(tolerance), way_(points.size()) {
-        for (std::size_t i = 1; i < points.size(); ++i)
-            way_[i] = way_[i - 1] + length(points[i] - points[i - 1]);
+    Fitter(std::vector<CurvePoint> points, bool closed, double tolerance)
+        : points_(std::move(points)), closed_(closed), tolerance_(tolerance), way_(points_.size()) {
+        for (std::size_t i = 1; i < points_.size(); ++i)
+            way_[i] = way_[i - 1] + length(points_[i] - points_[i - 1]);
     }
 
     std::vector<Bezier> fit() {
@@ -289,19 +290,32 @@ private:
         return square > 0 ? std::clamp(t - dot(off, slope) / square, 0.0, 1.0) : t;
     }
 
-    const std::vector<CurvePoint>& points_;
+    std::vector<CurvePoint> points_;
     bool closed_;
     double tolerance_;
     std::vector<double> way_;  // to each point
     std::vector<Bezier> out_;
 };
 
+// Between points that are far apart a curve could go anywhere.
+std::vector<CurvePoint> with_points_between(const std::vector<CurvePoint>& points) {
+    constexpr double kMost = 64;  // between two
+    std::vector<CurvePoint> out{points.front()};
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const CurvePoint a = points[i - 1], way = points[i] - a;
+        const int parts = static_cast<int>(std::clamp(std::ceil(length(way)), 1.0, kMost));
+        for (int k = 1; k < parts; ++k) out.push_back(a + static_cast<double>(k) / parts * way);
+        out.push_back(points[i]);
+    }
+    return out;
+}
+
 }  // namespace
 
 std::vector<Bezier> fit_beziers(std::vector<CurvePoint> points, bool closed, double tolerance) {
     if (closed && !points.empty()) points.push_back(points.front());
     if (points.size() < 2) return {};
-    return Fitter(points, closed, tolerance).fit();
+    return Fitter(with_points_between(points), closed, tolerance).fit();
 }
 
 }  // namespace keyline

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <span>
 #include <tuple>
 
@@ -96,7 +97,10 @@ public:
 
     // The borders of what is covered go to the cells.  Returns the winding on the right.
     int add(std::span<Edge> edges, int winding) {
-        if (winding == 0 && is_simple(edges)) return add_whole(edges);
+        if (winding == 0)
+            for (const int into : {1, -1})
+                if (is_simple(edges, into)) return add_whole(edges, winding, into);
+        if (std::abs(winding) == 1 && is_simple(edges, -winding)) return add_whole(edges, winding, winding);
         left_ = winding;
         find_heights(edges);
         std::ranges::sort(edges, {}, &Edge::y0);
@@ -113,18 +117,22 @@ public:
     }
 
 private:
-    // Whether on no height there is more than one edge into what is covered, and each is left of those out of
-    // it: then nothing is covered twice, and the edges are the borders as they are.
-    bool is_simple(std::span<const Edge> edges) {
+    // Whether on no height there is more than one edge of the sign `first`, and each is left of those of the
+    // other: then the winding goes from what it is on the left to what it is beside that and back, no
+    // farther, and the edges are the borders as they are.  On all heights it is the same on the right, so
+    // that the sum says whether on any there is one of the other sign only.
+    static bool is_simple(std::span<const Edge> edges, int first) {
         if (edges.size() > kFew) return false;
         Heights taken{};
-        for (const Edge& into : edges) {
-            if (into.sign < 0) continue;
-            if (!take(into.y0, into.y1, taken)) return false;
-            for (const Edge& out : edges)
-                if (out.sign < 0 && !is_left(into, out)) return false;
+        int64_t height = 0;
+        for (const Edge& e : edges) {
+            height += e.sign * first * (e.y1 - e.y0);
+            if (e.sign != first) continue;
+            if (!take(e.y0, e.y1, taken)) return false;
+            for (const Edge& other : edges)
+                if (other.sign != first && !is_left(e, other)) return false;
         }
-        return true;
+        return height >= 0;
     }
 
     using Heights = std::array<uint64_t, kOne / 64>;  // a bit for each of a row
@@ -148,13 +156,15 @@ private:
         return top >= bottom || (a.x_at(top) <= b.x_at(top) && a.x_at(bottom) <= b.x_at(bottom));
     }
 
-    int add_whole(std::span<const Edge> edges) {
+    // `into` is the sign of edges into what is covered.
+    int add_whole(std::span<const Edge> edges, int winding, int into) {
         int64_t height = 0;
-        for (const Edge& e : edges) {
-            if (!e.is_level()) cells_.add(e);
+        for (Edge e : edges) {
             height += e.sign * (e.y1 - e.y0);
+            e.sign *= into;
+            if (!e.is_level()) cells_.add(e);
         }
-        return height != 0 ? 1 : 0;
+        return winding + static_cast<int>(height / kOne);
     }
 
     void find_heights(std::span<const Edge> edges) {
@@ -187,7 +197,7 @@ private:
         return winding;
     }
 
-    static constexpr std::size_t kFew = 24;
+    static constexpr std::size_t kFew = 128;
 
     Cells& cells_;
     int left_ = 0;  // the winding there

@@ -11,6 +11,7 @@ namespace keyline {
 namespace {
 
 constexpr double kFlat = 0.01;
+constexpr double kSharpest = -0.8;  // cosine of a turn that is no end of a line and the beginning of another
 
 struct Vector {
     double x = 0, y = 0;
@@ -100,6 +101,7 @@ public:
         for (const StrokeVertex& v : stroke.vertices)
             add({{within_reach(v.x), within_reach(v.y)}, within_reach(v.width / 2)});
         if (closed_) close();
+        leave_out_needless();
         const std::size_t n = discs_.size();
         for (std::size_t i = 0; n > 1 && i + (closed_ ? 0 : 1) < n; ++i)
             segments_.push_back(segment_between(discs_[i], discs_[(i + 1) % n]));
@@ -122,6 +124,36 @@ private:
         while (discs_.size() > 1 && lies_in(discs_.front(), discs_.back())) discs_.erase(discs_.begin());
     }
 
+    // Discs that lie on the way between others.  What is left is longer than it is wide, mostly, so that the
+    // outline is wound around once.
+    void leave_out_needless() {
+        constexpr std::size_t kMost = 32;
+        std::vector<Disc> kept;
+        for (std::size_t i = 0; i < discs_.size();) {
+            kept.push_back(discs_[i]);
+            std::size_t next = i + 1;
+            while (next + 1 < discs_.size() && next - i < kMost && is_straight(i, next + 1)) ++next;
+            i = next;
+        }
+        discs_ = std::move(kept);
+    }
+
+    bool is_straight(std::size_t from, std::size_t to) const {
+        const Disc &a = discs_[from], &b = discs_[to];
+        const Vector way = b.centre - a.centre;
+        const double square = dot(way, way);
+        if (!(square > 0)) return false;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            const Vector off = discs_[i].centre - a.centre;
+            const double along = dot(off, way) / square;
+            const double radius = a.radius + along * (b.radius - a.radius);
+            if (along < 0 || along > 1 || length(off - along * way) > kFlat ||
+                std::fabs(discs_[i].radius - radius) > kFlat)
+                return false;
+        }
+        return true;
+    }
+
     void add_disc(const Disc& disc) {
         constexpr std::array<Vector, 5> kQuarters{Vector{1, 0}, {0, -1}, {-1, 0}, {0, 1}, {1, 0}};
         Pen pen;
@@ -138,6 +170,8 @@ private:
             left_.point(disc.centre + disc.radius / 2 * (before.left + after.left));
             return;
         }
+        if (shorter >= disc.radius && dot(before.along, after.along) > kSharpest)
+            return turn_at(disc, before, after);
         right_.point(disc.centre + disc.radius * before.right);
         left_.point(disc.centre + disc.radius * before.left);
         right_.point(disc.centre);
@@ -145,6 +179,17 @@ private:
         right_.point(disc.centre + disc.radius * after.right);
         left_.point(disc.centre + disc.radius * after.left);
         add_disc(disc);
+    }
+
+    // Both segments cover the disc but for the wedge on the outside of the turn.
+    void turn_at(const Disc& disc, const Segment& before, const Segment& after) {
+        const bool to_right = dot(turned(before.along), after.along) > 0;
+        Pen &outer = to_right ? left_ : right_, &inner = to_right ? right_ : left_;
+        const auto side = [&](const Segment& s, bool right) { return right ? s.right : s.left; };
+        outer.arc(disc, side(before, !to_right), side(after, !to_right));
+        inner.point(disc.centre + disc.radius * side(before, to_right));
+        inner.point(disc.centre);
+        inner.point(disc.centre + disc.radius * side(after, to_right));
     }
 
     // One point may stand for the arc, and both segments' sides keep their directions.

@@ -23,7 +23,7 @@ inline constexpr int kFixedOne = 256;
 using Loop = std::vector<FixedPoint>;
 
 // Closed loops.  A point is covered where they wind around it, in whichever direction; where the stroke runs
-// over itself they wind more than once.  Arcs are flattened to 0.01 pixels.
+// over itself they wind more than once.  Arcs, and the way itself, are flattened to 0.01 pixels.
 std::vector<Loop> outline_of(const Stroke& stroke);
 
 }  // namespace keyline

@@ -66,6 +66,21 @@ TEST(Bezier, KeepsCorners) {
     EXPECT_EQ(curves[0][2].y, 0);
 }
 
+TEST(Bezier, StaysOnTheWayBetweenPointsThatAreFarApart) {
+    const std::vector<CurvePoint> sliver{{0, 0}, {40, 1}, {80, 0}, {80, 2}, {40, 2.5}, {0, 2}};
+    CurvePoint a = sliver[0];
+    for (const Bezier& b : fit_beziers(sliver, true, 0.2)) {
+        for (int i = 0; i <= 50; ++i) {
+            const double t = i / 50.0, s = 1 - t;
+            const double y =
+                s * s * s * a.y + 3 * s * s * t * b[0].y + 3 * s * t * t * b[1].y + t * t * t * b[2].y;
+            EXPECT_GE(y, -0.25);
+            EXPECT_LE(y, 2.75);
+        }
+        a = b[2];
+    }
+}
+
 TEST(Bezier, BearsPointsThatCoincideOrAreFew) {
     EXPECT_TRUE(fit_beziers({}, false, 0.2).empty());
     EXPECT_TRUE(fit_beziers({{1, 1}}, false, 0.2).empty());
