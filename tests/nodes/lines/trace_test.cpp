@@ -149,8 +149,8 @@ TEST(Trace, LinesThatFadeGrowThin) {
     EXPECT_GT(thick->width, 0.9);
     EXPECT_LT(thin->width, 0.1);
     EXPECT_LT(thick->x, thin->x);
-    for (const StrokeVertex& v : trace(fading(), {{"low", 0.05}, {"soft", false}}).strokes[0].vertices)
-        EXPECT_EQ(v.width, 1);
+    const Strokes hard = trace(fading(), {{"low", 0.05}, {"soft", false}});
+    for (const StrokeVertex& v : hard.strokes.at(0).vertices) EXPECT_EQ(v.width, 1);
 }
 
 TEST(Trace, ALineHasAPointThatReachesHigh) {

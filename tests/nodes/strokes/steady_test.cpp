@@ -89,8 +89,8 @@ TEST(Steady, OneThatBlinksIsThere) {
 
 TEST(Steady, WhoCannotSeeAPlaceHasNoSay) {
     const Strokes line = level(20), other = level(35);
-    for (const StrokeVertex& v : among({other, other, line, other, other}, false).strokes.at(0).vertices)
-        EXPECT_EQ(v.width, 1);
+    const Strokes steady = among({other, other, line, other, other}, false);
+    for (const StrokeVertex& v : steady.strokes.at(0).vertices) EXPECT_EQ(v.width, 1);
 }
 
 TEST(Steady, LinesOfOthersAreOthers) {
