@@ -90,6 +90,8 @@ void log_listing(const char* what) {
 
 }  // namespace
 
+// The C library's own parameters have names that nobody else may use.
+// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name)
 extern "C" {
 
 int open(const char* name, int flags, ...) {
@@ -139,8 +141,8 @@ ssize_t pwrite64(int descriptor, const void* bytes, size_t n, off64_t offset) {
 ssize_t pread(int descriptor, void* bytes, size_t n, off_t offset) {
     if (offset >= 4096 && fails("read")) return -1;
     static std::atomic<int> reads = 0;
-    if (offset >= 4096 && fault("read_every") != 0 && ++reads % fault("read_every") == 0)
-        return errno = EIO, -1;
+    const int every = fault("read_every");
+    if (offset >= 4096 && every != 0 && ++reads % every == 0) return errno = EIO, -1;
     if (fault("short") != 0) n = std::min(n, static_cast<size_t>(fault("short")));
     return real<ssize_t(int, void*, size_t, off_t)>("pread")(descriptor, bytes, n, offset);
 }
@@ -159,3 +161,4 @@ DIR* fdopendir(int descriptor) {
     return real<DIR*(int)>("fdopendir")(descriptor);
 }
 }
+// NOLINTEND(readability-inconsistent-declaration-parameter-name)

@@ -42,9 +42,8 @@ TEST_F(Submit, SlurmGetsAnArrayAndAJobAfterIt) {
           " render graph.json --set 'out.file=b c.#.exr' ", "scontrol requeue",
           "# sbatch --dependency=afterany:JOB\n",
           " verify graph.json --set 'out.file=b c.#.exr' --frames=1-12 --list=stale,damaged,missing,foreign",
-          " submit slurm graph.json --set 'out.file=b c.#.exr' --frames=\"$left\" --chunk=5 --name=look "
-          "--threads=3 ",
-          "--round=2 --rounds=3 --partition=p1\n"})
+          " submit slurm graph.json --set 'out.file=b c.#.exr' --frames=\"$left\" --chunk=5 --name=look ",
+          " --name=look --threads=3 ", "--round=2 --rounds=3 --partition=p1\n"})
         EXPECT_THAT(run.out, HasSubstr(line));
     EXPECT_THAT(files(), ElementsAre("graph.json")) << "nothing is submitted, nothing is written";
 }
