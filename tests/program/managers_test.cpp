@@ -18,8 +18,6 @@ namespace keyline::test {
 namespace {
 
 using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> out;
