@@ -37,10 +37,12 @@ struct ColorTransform::Impl {
 
 struct ColorConfig::Impl {
     ocio::ConstConfigRcPtr config;
+    ocio::ConstContextRcPtr context = config->getCurrentContext();
 
     // Null for a transform that changes nothing.  Throws OpenColorIO's exceptions.
     std::shared_ptr<const ColorTransform::Impl> processed(const ocio::ConstTransformRcPtr& transform) const {
-        auto processor = config->getProcessor(transform)->getOptimizedCPUProcessor(kOptimization);
+        auto processor = config->getProcessor(context, transform, ocio::TRANSFORM_DIR_FORWARD)
+                             ->getOptimizedCPUProcessor(kOptimization);
         if (processor->isNoOp()) return nullptr;
         return std::make_shared<const ColorTransform::Impl>(ColorTransform::Impl{std::move(processor)});
     }
@@ -204,6 +206,18 @@ std::vector<std::string> split_looks(const std::string& looks) {
     return out;
 }
 
+[[noreturn]] void refuse_named(const ocio::Config& config, const std::string& transform,
+                               const std::string& config_name) {
+    std::vector<std::string> known;
+    for (int i = 0; i < config.getNumNamedTransforms(); ++i)
+        known.emplace_back(config.getNamedTransformNameByIndex(i));
+    throw BadValue(transform,
+                   known.empty() ? fmt::format("there are no named transforms in {}", config_name)
+                                 : fmt::format("there is no named transform {} in {}; it has {}",
+                                               in_quotes(transform), config_name, listed(known)),
+                   did_you_mean(transform, known));
+}
+
 }  // namespace
 
 // The same.  Throws Failure (kInput), as when a look-up table is not there.
@@ -254,6 +268,17 @@ std::shared_ptr<const ColorConfig> ColorConfig::builtin() {
         new ColorConfig("the built-in OCIO config", std::make_shared<const Impl>(Impl{std::move(config)})));
 }
 
+std::shared_ptr<const ColorConfig> ColorConfig::in_context(
+    const std::vector<std::pair<std::string, std::string>>& variables) const {
+    const auto context = impl_->context->createEditableCopy();
+    for (const auto& [name, value] : variables) {
+        require_variable(name);
+        context->setStringVar(name.c_str(), value.c_str());
+    }
+    return std::shared_ptr<const ColorConfig>(
+        new ColorConfig(name_, std::make_shared<const Impl>(Impl{impl_->config, context})));
+}
+
 ColorTransform ColorConfig::convert(const std::string& from, const std::string& to) const {
     require_space(from);
     require_space(to);
@@ -290,6 +315,18 @@ ColorTransform ColorConfig::look(const std::string& space, const std::string& lo
         transform, fmt::format("{} to look {} in {}", in_quotes(space), in_quotes(looks), name_)));
 }
 
+ColorTransform ColorConfig::named(const std::string& transform, bool inverse) const {
+    const auto found = impl_->config->getNamedTransform(transform.c_str());
+    if (!found) refuse_named(*impl_->config, transform, name_);
+    // One direction may be all that is said of it.
+    const auto said = found->getTransform(direction_of(inverse));
+    auto turned = ocio::GroupTransform::Create();
+    if (!said) turned->setDirection(ocio::TRANSFORM_DIR_INVERSE);
+    const auto part = said ? said : found->getTransform(direction_of(!inverse));
+    turned->appendTransform(part->createEditableCopy());
+    return ColorTransform(impl_->prepare(turned, fmt::format("{} in {}", in_quotes(transform), name_)));
+}
+
 ColorTransform ColorConfig::file(const std::filesystem::path& file, const std::string& id,
                                  bool inverse) const {
     std::error_code unknown;  // where it can't be looked at, reading it says why
@@ -323,7 +360,9 @@ ColorTransform ColorConfig::decide(const Decision& decision, bool inverse) const
     return ColorTransform(impl_->prepare(transform, "a colour decision"));
 }
 
-Digest ColorConfig::digest() const { return Digester("colours").add(impl_->config->getCacheID()).digest(); }
+Digest ColorConfig::digest() const {
+    return Digester("colours").add(impl_->config->getCacheID(impl_->context)).digest();
+}
 
 void ColorConfig::require_space(const std::string& space) const {
     if (impl_->config->getColorSpace(space.c_str())) return;
@@ -347,6 +386,18 @@ void ColorConfig::require_looks(const std::string& looks) const {
                                                    name_, listed(known)),
                        did_you_mean(look, known));
     }
+}
+
+// A config that lists its variables has no others; one that lists none may use any.
+void ColorConfig::require_variable(const std::string& variable) const {
+    std::vector<std::string> known;
+    for (int i = 0; i < impl_->config->getNumEnvironmentVars(); ++i)
+        known.emplace_back(impl_->config->getEnvironmentVarNameByIndex(i));
+    if (known.empty() || std::ranges::find(known, variable) != known.end()) return;
+    throw BadValue(variable,
+                   fmt::format("there is no context variable {} in {}; it has {}", in_quotes(variable), name_,
+                               listed(known)),
+                   did_you_mean(variable, known));
 }
 
 std::string ColorConfig::found_display(const std::string& display) const {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Colour management by OpenColorIO: a config names colour spaces, displays and views, and makes the
@@ -65,6 +66,11 @@ public:
     // make it where a node uses colour, and share it.
     static std::shared_ptr<const ColorConfig> builtin();
 
+    // The same with variables of its context, name and value, that stand in the names of its files and
+    // spaces: $SHOT.  Throws BadValue for one that the config does not have, where it says which it has.
+    std::shared_ptr<const ColorConfig> in_context(
+        const std::vector<std::pair<std::string, std::string>>& variables) const;
+
     // From one space to another.  Between equal spaces, and from or to data such as 'Raw', it is the
     // identity, as OCIO has it.  Throws Failure: kGraph for a space that is not there, kInput where a file
     // that the config refers to can't be used.
@@ -78,6 +84,9 @@ public:
     // What the config calls a look, in a space: "grade", or several as "+grade, -warm".  Throws as convert()
     // does.
     ColorTransform look(const std::string& space, const std::string& looks, bool inverse) const;
+
+    // A transform that the config names.  Throws as convert() does.
+    ColorTransform named(const std::string& transform, bool inverse) const;
 
     // What a file says, of any kind that OpenColorIO reads: look-up tables (.cube .spi1d .spi3d .csp .3dl
     // .clf …) and colour decisions (.cc .ccc .cdl; `id` is the correction's, empty: the first).  A file is
@@ -109,6 +118,7 @@ private:
 
     void require_space(const std::string& space) const;
     void require_looks(const std::string& looks) const;
+    void require_variable(const std::string& variable) const;
     std::string found_display(const std::string& display) const;
     std::string found_view(const std::string& display, const std::string& view) const;
 

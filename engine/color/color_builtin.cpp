@@ -148,6 +148,21 @@ colorspaces:
     aliases: [Utility - Raw]
     description: Data, never converted.
     isdata: true
+
+named_transforms:
+  - !<NamedTransform>
+    name: sRGB - Curve
+    aliases: [srgb_crv]
+    description: The curve of sRGB by itself, whatever the primaries; forward makes linear of it.
+    encoding: sdr-video
+    transform: !<ExponentWithLinearTransform> {gamma: 2.4, offset: 0.055}
+
+  - !<NamedTransform>
+    name: Rec.1886 - Curve
+    aliases: [rec1886_crv]
+    description: The curve of Rec.1886 by itself, whatever the primaries; forward makes linear of it.
+    encoding: sdr-video
+    transform: !<ExponentTransform> {value: 2.4, style: pass_thru}
 )yaml";
 
 }  // namespace keyline

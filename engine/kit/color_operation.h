@@ -8,6 +8,10 @@
 
 namespace KEYLINE_API keyline {
 
+// Of the parameter that nodes of colour have in common.
+inline constexpr const char* kContextHelp =
+    "Variables of the config's context, by name: { \"SHOT\": \"sh010\" } is what $SHOT means in its files.";
+
 // The stream with its R G B converted, unpremultiplied around the transform where there is an A; all else
 // passes.  The metadata loses `chromaticities` and
 // `ICCProfile`, which no longer hold.

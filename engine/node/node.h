@@ -240,6 +240,8 @@ public:
 
     // The colour management of the graph; loaded when first asked for.
     virtual const ColorConfig& colors() = 0;
+    // The same with variables of its context.
+    virtual std::shared_ptr<const ColorConfig> colors(const Map<std::string>& variables) = 0;
 
     // An image file.  One that does not change is read once for all nodes and frames.  Throws Failure as
     // open_image() does.

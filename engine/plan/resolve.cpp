@@ -229,6 +229,12 @@ public:
         }
     }
 
+    std::shared_ptr<const ColorConfig> colors(const Map<std::string>& variables) override {
+        const std::shared_ptr<const ColorConfig> config = colors().in_context(variables.entries);
+        asked_.add(config->digest());
+        return config;
+    }
+
     Stream input(const Input& in) override { return input(in, frame_); }
 
     Stream input(const Input& in, int frame) override {
@@ -449,6 +455,7 @@ private:
         }
         op.digest = digester.digest();
         op.title = title();
+        op.place = node_.place;
         op.node = index_;
         op.frame = frame_;
         const int added = static_cast<int>(resolver_.result_.ops.size());

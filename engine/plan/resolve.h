@@ -32,6 +32,7 @@ struct ValueInfo {
 // An operation of one frame: one of the four ways to make a value.
 struct Op {
     std::string title;  // "node 'a' (gaussian)"
+    Place place;        // of the node
     int node = -1;      // of the graph
     int frame = 0;
     // Of all that its values depend on: the node, its version and its parameters, what it reads, its files as

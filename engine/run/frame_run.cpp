@@ -277,13 +277,15 @@ std::vector<Error> FrameRun::warnings() const {
         const Op& op = plan_.frame.ops[i];
         const std::string file = op.source ? op.source->header().file.string() + ": " : "";
         for (const std::string& what : findings_of(i))
-            out.push_back(
-                {ErrorKind::kFailed, {}, fmt::format("{}, frame {}", op.title, op.frame), file + what, {}});
+            out.push_back({ErrorKind::kFailed,
+                           op.place,
+                           fmt::format("{}, frame {}", op.title, op.frame),
+                           file + what,
+                           {}});
     }
     for (std::size_t i = 0; i < overflowed_.size(); ++i) {
         if (overflowed_[i] == 0) continue;
-        out.push_back({ErrorKind::kFailed,
-                       {},
+        out.push_back({ErrorKind::kFailed, plan_.frame.sinks[i].place,
                        fmt::format("{}, frame {}", plan_.frame.sinks[i].title, plan_.frame.frame),
                        fmt::format("{} value{} beyond half's range became infinity", overflowed_[i],
                                    overflowed_[i] == 1 ? "" : "s"),

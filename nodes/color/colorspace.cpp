@@ -15,6 +15,7 @@ struct Colorspace {
         Input in;
         std::string from = "scene_linear";
         std::string to;
+        Map<std::string> context;
 
         static constexpr auto fields =
             declare(input(&Params::in, "in", "The image to convert.", colour()),
@@ -22,14 +23,15 @@ struct Colorspace {
                         .naming(Naming::kColorSpace),
                     field(&Params::to, "to", "The space, or role, to convert to.")
                         .required()
-                        .naming(Naming::kColorSpace));
+                        .naming(Naming::kColorSpace),
+                    field(&Params::context, "context", kContextHelp));
     };
 
-    explicit Colorspace(const Params& p) : params(p) {}
+    explicit Colorspace(Params p) : params(std::move(p)) {}
 
     Stream expand(Builder& builder) const {
         return convert_colour(builder, builder.input(params.in),
-                              builder.colors().convert(params.from, params.to));
+                              builder.colors(params.context)->convert(params.from, params.to));
     }
 
     const Params params;

@@ -16,6 +16,7 @@ struct Display {
         std::string display;
         std::string view;
         std::string from = "scene_linear";
+        Map<std::string> context;
 
         static constexpr auto fields =
             declare(input(&Params::in, "in", "The image to show.", colour()),
@@ -24,14 +25,16 @@ struct Display {
                     field(&Params::view, "view", "The view; empty takes the display's default.")
                         .naming(Naming::kView),
                     field(&Params::from, "from", "The space, or role, that the input is in.")
-                        .naming(Naming::kColorSpace));
+                        .naming(Naming::kColorSpace),
+                    field(&Params::context, "context", kContextHelp));
     };
 
-    explicit Display(const Params& p) : params(p) {}
+    explicit Display(Params p) : params(std::move(p)) {}
 
     Stream expand(Builder& builder) const {
-        return convert_colour(builder, builder.input(params.in),
-                              builder.colors().display(params.from, params.display, params.view));
+        return convert_colour(
+            builder, builder.input(params.in),
+            builder.colors(params.context)->display(params.from, params.display, params.view));
     }
 
     const Params params;

@@ -15,20 +15,23 @@ struct Look {
         std::string look;
         std::string space = "scene_linear";
         bool inverse = false;
+        Map<std::string> context;
 
         static constexpr auto fields = declare(
             input(&Params::in, "in", "The image.", colour()),
             field(&Params::look, "look", "The look's name; several as \"+grade, -warm\"; empty for none."),
             field(&Params::space, "space", "The space, or role, that the image is in and stays in.")
                 .naming(Naming::kColorSpace),
-            field(&Params::inverse, "inverse", "Whether to take the look back."));
+            field(&Params::inverse, "inverse", "Whether to take the look back."),
+            field(&Params::context, "context", kContextHelp));
     };
 
-    explicit Look(const Params& p) : params(p) {}
+    explicit Look(Params p) : params(std::move(p)) {}
 
     Stream expand(Builder& builder) const {
-        return convert_colour(builder, builder.input(params.in),
-                              builder.colors().look(params.space, params.look, params.inverse));
+        return convert_colour(
+            builder, builder.input(params.in),
+            builder.colors(params.context)->look(params.space, params.look, params.inverse));
     }
 
     const Params params;

@@ -3,7 +3,9 @@
 #include "engine/base/channels.h"
 #include "engine/base/index.h"
 #include "engine/base/text.h"
+#include "engine/io/text_file.h"
 #include "engine/kit/cryptomatte.h"
+#include "engine/kit/object_table.h"
 #include "engine/kit/wildcard.h"
 #include "engine/node/node_adaptor.h"
 #include "engine/node/pixel_loop.h"
@@ -77,6 +79,7 @@ struct Palette {
         std::string layer;
         std::optional<Map<Color>> colors;
         std::optional<Map<double>> values;
+        std::optional<FileName> table;
 
         static constexpr auto fields = declare(
             input(&Params::in, "in", "The image with the Cryptomatte, all of its layers."),
@@ -88,14 +91,21 @@ struct Palette {
                   "[0.2, 0.2, 0.2] }. The first that matches counts. Makes R G B, premultiplied, and A.")
                 .naming(Naming::kObject),
             field(&Params::values, "values", "Numbers by name instead; makes one channel, 'value'.")
-                .naming(Naming::kObject));
+                .naming(Naming::kObject),
+            field(
+                &Params::table, "table",
+                "A file of colours or numbers by name instead: .json, or .csv with lines of NAME,#rrggbb or "
+                "NAME,R,G,B or NAME,NUMBER; a run of # stands for the frame number."));
     };
 
     static void check(const Params& p, Check& c) {
-        if (p.colors.has_value() == p.values.has_value())
-            c.error(
-                "colors",
-                p.colors ? "'colors' and 'values' are both given" : "neither 'colors' nor 'values' is given",
+        const int given = (p.colors ? 1 : 0) + (p.values ? 1 : 0) + (p.table ? 1 : 0);
+        if (given == 1) return;
+        c.error(p.colors   ? "colors"
+                : p.values ? "values"
+                           : "table",
+                given == 0 ? "none of 'colors', 'values' and 'table' is given"
+                           : "of 'colors', 'values' and 'table' more than one is given",
                 "give one of them");
     }
 
@@ -104,13 +114,14 @@ struct Palette {
     Stream expand(Builder& builder) const {
         Stream stream = builder.input(params.in);
         const Cryptomatte matte = find_cryptomatte(builder, stream, params.layer);
-        const std::vector<std::string> patterns = patterns_of_table();
+        const ObjectTable table = table_at(builder);
+        const std::vector<std::string> patterns = patterns_of(table);
         int otherwise = kNone;
         std::vector<Assigned> objects = assigned(builder, *matte.info, patterns, otherwise);
         std::ranges::sort(objects, {}, &Assigned::id);
         const std::vector<const char*> outputs =
-            params.colors ? std::vector{"R", "G", "B", "A"} : std::vector{"value"};
-        const auto lay = std::make_shared<const LayTable>(std::move(objects), otherwise, channels());
+            table.colors ? std::vector{"R", "G", "B", "A"} : std::vector{"value"};
+        const auto lay = std::make_shared<const LayTable>(std::move(objects), otherwise, channels_of(table));
         const auto values =
             builder.add(lay, {{stream, matte.values()}}, stream.window, static_cast<int>(outputs.size()));
         stream.channels.clear();
@@ -121,27 +132,34 @@ struct Palette {
     const Params params;
 
 private:
-    const char* table() const { return params.colors ? "colors" : "values"; }
+    const char* table() const { return params.table ? "table" : params.colors ? "colors" : "values"; }
 
-    std::vector<std::string> patterns_of_table() const {
+    ObjectTable table_at(Builder& builder) const {
+        if (!params.table) return {params.colors, params.values};
+        const std::filesystem::path file = params.table->at(builder.frame());
+        builder.file(file);
+        return parse_object_table(read_text_file(file), file.string());
+    }
+
+    static std::vector<std::string> patterns_of(const ObjectTable& table) {
         std::vector<std::string> out;
-        if (params.colors)
-            for (const auto& [pattern, color] : params.colors->entries) out.push_back(pattern);
+        if (table.colors)
+            for (const auto& [pattern, color] : table.colors->entries) out.push_back(pattern);
         else
-            for (const auto& [pattern, value] : params.values->entries) out.push_back(pattern);
+            for (const auto& [pattern, value] : table.values->entries) out.push_back(pattern);
         return out;
     }
 
-    std::vector<std::vector<float>> channels() const {
-        std::vector<std::vector<float>> out(params.colors ? 3 : 1);
-        if (params.colors) {
-            for (const auto& [pattern, color] : params.colors->entries) {
+    static std::vector<std::vector<float>> channels_of(const ObjectTable& table) {
+        std::vector<std::vector<float>> out(table.colors ? 3 : 1);
+        if (table.colors) {
+            for (const auto& [pattern, color] : table.colors->entries) {
                 out[0].push_back(static_cast<float>(color.r));
                 out[1].push_back(static_cast<float>(color.g));
                 out[2].push_back(static_cast<float>(color.b));
             }
         } else {
-            for (const auto& [pattern, value] : params.values->entries)
+            for (const auto& [pattern, value] : table.values->entries)
                 out[0].push_back(static_cast<float>(value));
         }
         return out;

@@ -47,6 +47,40 @@ colorspaces:
     from_scene_reference: !<MatrixTransform> {matrix: [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1]}
 )yaml";
 
+// What a config says of shots: a correction each, and one for those that have none.
+TEST_F(ColorConfigFile, HasVariablesInTheNamesOfItsFiles) {
+    write("sh010.spi1d", "Version 1\nFrom 0 1\nLength 2\nComponents 1\n{\n0\n2\n}\n");
+    write("none.spi1d", "Version 1\nFrom 0 1\nLength 2\nComponents 1\n{\n0\n1\n}\n");
+    const auto config = ColorConfig::load(write("show.ocio", R"yaml(ocio_profile_version: 2
+environment: {SHOT: none}
+search_path: .
+roles: {default: lin}
+looks:
+  - !<Look> {name: grade, process_space: lin, transform: !<FileTransform> {src: $SHOT.spi1d}}
+colorspaces:
+  - !<ColorSpace> {name: lin}
+named_transforms:
+  - !<NamedTransform> {name: half, inverse_transform: !<MatrixTransform> {matrix: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}}
+)yaml"));
+    const auto red = [](const ColorTransform& transform) {
+        float r = 0.25F, g = 0, b = 0;
+        transform.apply(&r, &g, &b, nullptr, 1);
+        return r;
+    };
+    EXPECT_EQ(red(config->look("lin", "grade", false)), 0.25F);
+    const auto shot = config->in_context({{"SHOT", "sh010"}});
+    EXPECT_EQ(red(shot->look("lin", "grade", false)), 0.5F);
+    EXPECT_NE(shot->digest(), config->digest());
+    EXPECT_EQ(config->in_context({})->digest(), config->digest());
+    EXPECT_THAT(error_of([&] {
+                    config->in_context({{"SHOTT", "a"}});
+                }).what,
+                HasSubstr("there is no context variable 'SHOTT' in OCIO config"));
+
+    EXPECT_EQ(red(config->named("half", false)), 0.125F) << "of the inverse, which is all that is said";
+    EXPECT_EQ(red(config->named("half", true)), 0.5F);
+}
+
 TEST(BuiltinColorConfig, HasTheSpacesDisplaysAndViewsThatItPromises) {
     const auto config = ColorConfig::builtin();
     EXPECT_THAT(config->color_spaces(),

@@ -19,6 +19,7 @@ using Kind = TypeInfo::Kind;
 // Values that no declaration lists, for the nodes that need one.
 std::optional<Json> known_word(const std::string& type, const std::string& field) {
     if (type == "colorspace" && field == "to") return Json("ACEScg");
+    if (type == "namedtransform" && field == "transform") return Json("sRGB - Curve");
     if (type == "laplacian" && field == "neighbours") return Json(8);
     return {};
 }

@@ -4,7 +4,10 @@
 #include "tests/support/run.h"
 
 #include <bit>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
+#include <unistd.h>
 
 namespace keyline::testing {
 namespace {
@@ -62,6 +65,65 @@ TEST(Palette, WithoutAManifestNamesAreHashed) {
     EXPECT_NE(error_of("palette", {{"values", {{"b*", 1}}}}, objects(false))
                   .find("the input has no manifest to look 'b*' up in; give whole names"),
               std::string::npos);
+}
+
+class PaletteTable : public ::testing::Test {
+protected:
+    PaletteTable() { std::filesystem::create_directories(folder_); }
+    ~PaletteTable() override { std::filesystem::remove_all(folder_); }
+
+    Json table(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name) << text;
+        return {{"table", (folder_ / name).string()}};
+    }
+    Samples red(const std::string& name, const std::string& text) const {
+        return run("palette", table(name, text), objects()).channel("R").samples;
+    }
+    std::string fault(const std::string& text, const std::string& name = "t.csv") const {
+        const std::string told = error_of("palette", table(name, text), objects());
+        const std::size_t at = told.find(name);
+        return at == std::string::npos ? told : told.substr(at);
+    }
+
+private:
+    std::filesystem::path folder_ =
+        std::filesystem::temp_directory_path() / fmt::format("keyline-palette-{}", getpid());
+};
+
+TEST_F(PaletteTable, AFileSaysTheSameAsJsonAndAsCsv) {
+    const Samples wanted =
+        run("palette", {{"colors", {{"ball", {1, 0.5, 0.25}}, {"*", "#ffffff"}}}}, objects())
+            .channel("R")
+            .samples;
+    EXPECT_EQ(red("t.json", R"({"ball": [1, 0.5, 0.25], "*": "#ffffff"})"), wanted);
+    EXPECT_EQ(red("t.csv", "ball,1,0.5,0.25\n*,#ffffff\n"), wanted);
+    EXPECT_EQ(red("t.csv", "\xEF\xBB\xBFname,color\r\n\r\n \"ball\" , 1, 0.5 ,0.25\r\n*,#ffffff"), wanted);
+    EXPECT_EQ(run("palette", table("n.csv", "object,value\nb*,8"), objects()).channel("value").samples,
+              (Samples{8, 6, 6, 0}));
+    EXPECT_EQ(run("palette", table("n.json", R"({"b*": 8})"), objects()).channel("value").samples,
+              (Samples{8, 6, 6, 0}));
+}
+
+TEST_F(PaletteTable, FaultsStandAtTheirPlacesInTheFile) {
+    EXPECT_EQ(
+        fault("ball,#ffffff\nbäl,#12345"),
+        "t.csv:2:5: error: 'bäl' is \"#12345\", a string; it must be a colour, [r, g, b] or \"#rrggbb\"");
+    EXPECT_EQ(fault("ball,1,2"),
+              "t.csv:1:1: error: the line has 3 cells; it must be NAME,#rrggbb or NAME,R,G,B or NAME,NUMBER");
+    EXPECT_EQ(
+        fault("ball;#ffffff"),
+        "t.csv:1:1: error: the line has 1 cell; it must be NAME,#rrggbb or NAME,R,G,B or NAME,NUMBER; cells "
+        "are parted by ','");
+    EXPECT_EQ(fault("ball,1\nbox,red"), "t.csv:2:5: error: 'box' is \"red\", a string; it must be a number");
+    EXPECT_EQ(fault("ball,1\nbox,2\nball,3"), "t.csv:3:1: error: 'ball' stands in line 1 already");
+    EXPECT_EQ(fault("\"ball,1\n"), "t.csv:1:1: error: the cell has no closing '\"'");
+    EXPECT_EQ(fault("\"ball\"x,1\n"), "t.csv:1:7: error: expected ',' or the end of the line after the cell");
+    EXPECT_EQ(
+        fault("name,color\n"),
+        "t.csv:1:1: error: a table is names with a colour or a number each; as { \"hair*\": \"#302018\" }");
+    EXPECT_EQ(fault("{\"ball\": 1,}", "t.json"),
+              "t.json:1:12: error: expected a key in double quotes, found '}'");
+    EXPECT_NE(fault("ball,1", "t.xls").find("is no table; a table is a .json or a .csv"), std::string::npos);
 }
 
 }  // namespace
