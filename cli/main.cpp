@@ -63,9 +63,11 @@ int run(int argc, char** argv) {
                       "  keyline render toon.json --frames 1-24\n"
                       "  keyline render toon.json --frames 12 --output blur=look.exr --set blur.sigma=3\n"
                       "  keyline help render\n"
-                      "  keyline help graphs       the language of graph files",
+                      "  keyline help graphs       the language of graph files\n"
+                      "  keyline help commands     all commands and their options",
                       version_text});
     line.add_topic("graphs", [] { return print_result(manual_of_graphs()), 0; });
+    line.add_topic("commands", [&line] { return print_result(line.pages()), 0; });
     add_commands(line.program());
     const int status = line.run(argc, argv);
     finish_results();

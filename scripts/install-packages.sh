@@ -8,7 +8,7 @@ packages=(
   g++ cmake ninja-build pkg-config
   libopenexr-dev libimath-dev libopenimageio-dev libopencolorio-dev libdeflate-dev libxxhash-dev
   libtbb-dev libhwy-dev libfmt-dev nlohmann-json3-dev libcli11-dev
-  libgtest-dev libgmock-dev python3
+  libgtest-dev libgmock-dev python3 lowdown
   "$@"
 )
 

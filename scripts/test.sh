@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=${1:-release}
 
-scripts/install-packages.sh graphviz neovim
+scripts/install-packages.sh graphviz neovim mandoc
 cmake --preset "$preset" -DKEYLINE_TESTS=ON >/dev/null
 cmake --build --preset "$preset"
 ctest --preset "$preset" --parallel "$(nproc)"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/command_line.h"
 
+#include "cli/common/command_pages.h"
 #include "cli/common/completion.h"
 #include "cli/common/report.h"
 #include "engine/base/error.h"
@@ -213,6 +214,8 @@ CommandLine::CommandLine(const About& about) : state_(std::make_unique<State>(ab
 CommandLine::~CommandLine() = default;
 
 Command CommandLine::program() { return {state_->app, state_->chosen}; }
+
+std::string CommandLine::pages() const { return commands_markdown(state_->app); }
 
 void CommandLine::add_topic(const std::string& topic, const Action& print) { state_->topics[topic] = print; }
 

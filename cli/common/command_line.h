@@ -88,6 +88,9 @@ public:
 
     Command program();
 
+    // All commands with their options, as Markdown.
+    std::string pages() const;
+
     // What `keyline help TOPIC` prints, for a topic that is no command.
     void add_topic(const std::string& topic, const Action& print);
 

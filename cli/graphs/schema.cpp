@@ -4,6 +4,7 @@
 #include "cli/common/report.h"
 #include "cli/graphs/commands.h"
 #include "engine/base/text.h"
+#include "engine/graph/group_search.h"
 #include "engine/io/text_file.h"
 #include "engine/node/reference.h"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr const char* kFileName = "keyline.schema.json";
 
 int run(const std::string& folder) {
-    const std::string schema = schema_json() + "\n";
+    const std::string schema = schema_json(types_of(named_groups())) + "\n";
     if (folder.empty()) return print_result(schema), 0;
     const std::filesystem::path file = std::filesystem::path(folder) / kFileName;
     write_text_file(file, schema);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/lsp/answers.h"
-#include "engine/graph/group.h"
+#include "engine/graph/group_search.h"
 #include "engine/json/json_repair.h"
 
 #include <algorithm>
@@ -32,8 +32,7 @@ Span use_of(const Document& document, const std::string& file) {
             const JsonItem* type = document.member(node.value, "type");
             if (!type) continue;
             const std::string name = document.string_of(type->value.span);
-            if (is_group(name) && group_file(name, document.folder()) == std::filesystem::path(file))
-                return type->value.span;
+            if (group_file(name, document.folder()) == std::filesystem::path(file)) return type->value.span;
         }
     return {0, std::min<std::size_t>(1, document.text().all().size())};
 }

@@ -3,6 +3,7 @@
 #include "cli/lsp/answers.h"
 #include "cli/lsp/site.h"
 #include "engine/base/identifier.h"
+#include "engine/graph/group_search.h"
 
 namespace keyline::lsp {
 
@@ -20,7 +21,7 @@ std::filesystem::path group_at(const Document& document, std::size_t byte) {
     const bool is_type =
         site.item && site.path.size() == 3 && document.string_of(site.path[2]->key) == "type";
     const std::string name = is_type ? document.string_of(site.item->value.span) : "";
-    return is_group(name) ? group_file(name, document.folder()) : std::filesystem::path();
+    return is_type ? group_file(name, document.folder()) : std::filesystem::path();
 }
 
 std::vector<Mention> same_as_at(const Document& document, std::size_t byte) {

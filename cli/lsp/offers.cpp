@@ -4,7 +4,7 @@
 
 #include "engine/base/channels.h"
 #include "engine/expr/functions.h"
-#include "engine/graph/group.h"
+#include "engine/graph/group_search.h"
 #include "engine/json/json_reader.h"
 #include "engine/node/reference.h"
 #include "engine/node/registry.h"
@@ -41,7 +41,7 @@ std::vector<Offer> keys_of(const std::vector<FieldInfo>& fields) {
 }
 
 std::vector<Offer> keys_of_node(const NodeType* type) {
-    std::vector<Offer> out{{"type", OfferKind::kProperty, "a node type, or the file of a group", ""}};
+    std::vector<Offer> out{{"type", OfferKind::kProperty, "a node type, or a group by its name or file", ""}};
     if (type) {
         const std::vector<Offer> own = keys_of(type->fields);
         out.insert(out.end(), own.begin(), own.end());
@@ -64,8 +64,10 @@ std::vector<Offer> types(const Document& document, const std::string& typed) {
     std::vector<Offer> out;
     for (const auto& [name, type] : registry().types())
         out.push_back({name, OfferKind::kClass, node_kind_name(type.kind), type.help});
+    for (const NodeType& group : types_of(named_groups()))
+        out.push_back({group.name, OfferKind::kClass, node_kind_name(group.kind), group.help});
     for (Offer& o : files(document.folder(), typed))
-        if (o.kind == OfferKind::kFolder || (is_group(o.label) && o.label != document.file().filename()))
+        if (o.kind == OfferKind::kFolder || (is_group_file(o.label) && o.label != document.file().filename()))
             out.push_back(std::move(o));
     return out;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/lsp/site.h"
 
+#include "engine/graph/group_search.h"
 #include "engine/node/registry.h"
 
 #include <algorithm>
@@ -84,9 +85,10 @@ NodeMeaning meaning_of_node(const Document& document, const JsonTree& node) {
     const JsonItem* type = document.member(node, "type");
     if (!type) return {};
     const std::string name = document.string_of(type->value.span);
-    if (!is_group(name)) return {registry().find(name), nullptr};
+    const std::filesystem::path file = group_file(name, document.folder());
+    if (file.empty()) return {registry().find(name), nullptr};
     Diagnostics ignored;  // check tells them
-    auto group = read_group(group_file(name, document.folder()), {}, ignored);
+    auto group = read_group(file, {}, ignored);
     const NodeType* declared = group ? &group->type : nullptr;
     return {declared, std::move(group)};
 }

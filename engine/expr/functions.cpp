@@ -80,6 +80,27 @@ constexpr std::array kFunctions{
     Function{"hold", "a number of frames", 1, 1, nullptr},  // held_frame(), of the frame that the scope knows
 };
 
+// As other languages have it.
+struct Synonym {
+    const char* name;
+    const char* hint;
+};
+
+constexpr std::array kSynonyms{
+    Synonym{"pow", "a power is written x ^ y"},
+    Synonym{"mod", "a remainder is written x % y"},
+    Synonym{"fmod", "a remainder is written x % y"},
+    Synonym{"if", "a choice is written a ? b : c"},
+    Synonym{"lerp", "write mix(a, b, t)"},
+    Synonym{"ln", "write log(x)"},
+    Synonym{"int", "write floor(x) or round(x)"},
+    Synonym{"trunc", "write floor(x) or round(x)"},
+    Synonym{"random", "write noise(frame, seed)"},
+    Synonym{"rand", "write noise(frame, seed)"},
+    Synonym{"env", "write ${env:NAME}"},
+    Synonym{"getenv", "write ${env:NAME}"},
+};
+
 const Function* find(const std::string& name) {
     const auto it = std::ranges::find(kFunctions, name, &Function::name);
     return it == kFunctions.end() ? nullptr : &*it;
@@ -95,6 +116,9 @@ std::vector<std::string> function_names() {
 
 void check_function(const std::string& name, std::size_t at) {
     if (find(name)) return;
+    const auto synonym = std::ranges::find(kSynonyms, name, &Synonym::name);
+    if (synonym != kSynonyms.end())
+        throw ExpressionFault(at, "there is no function " + in_quotes(name), synonym->hint);
     const std::vector<std::string> known = function_names();
     std::string hint = did_you_mean(name, known);
     throw ExpressionFault(at, "there is no function " + in_quotes(name),

@@ -4,10 +4,12 @@
 
 #include "engine/expr/functions.h"
 #include "engine/graph/graph_error.h"
+#include "engine/graph/tangent.h"
 #include "engine/json/make_value.h"
 #include "engine/params/colour_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <string>
@@ -22,7 +24,8 @@ using Kind = Value::Kind;
 struct Key {
     double frame = 0;
     const Value* value = nullptr;
-    const Value* mode = nullptr;  // null: linear where that is possible
+    const Value* mode = nullptr;  // a word; null: linear where that is possible
+    Tangent in = {}, out = {};
 
     bool is(std::string_view word) const { return mode && mode->text == word; }
 };
@@ -43,6 +46,7 @@ public:
             else
                 refuse_key(m);
         }
+        for (std::size_t i = 0; i < keys.size(); ++i) check_tangents(i);
         return is_sound_;
     }
 
@@ -87,14 +91,62 @@ private:
             return refuse(
                 item.place,
                 fmt::format("a key is {}; it must be [FRAME, VALUE] or [FRAME, VALUE, WORD]", item.shown()));
-        if (n == 3) one_of(item.items[2], "how a key goes on", {"linear", "smooth", "hold"});
-        const Key key{item.items[0].number, &item.items[1], n == 3 ? &item.items[2] : nullptr};
+        Key key{item.items[0].number, &item.items[1]};
+        if (n == 3) read_way(item.items[2], key);
         if (!keys.empty() && key.frame <= keys.back().frame)
             refuse(item.items[0].place,
                    fmt::format("the key of frame {} stands after that of frame {}", key.frame,
                                keys.back().frame),
                    "keys stand in the order of their frames");
         keys.push_back(key);
+    }
+
+    // How the value goes on from the key, and how it arrives there.
+    void read_way(const Value& way, Key& key) {
+        if (!way.is(Kind::kObject)) {
+            one_of(way, "how a key goes on", {"linear", "smooth", "hold"});
+            key.mode = &way;
+            return;
+        }
+        for (const Member& m : way.members)
+            if (m.key == "in")
+                read_tangent(m, key.in);
+            else if (m.key == "out")
+                read_tangent(m, key.out);
+            else
+                refuse(m.key_place, "unknown key " + in_quotes(m.key), "a key's tangents are 'in' and 'out'");
+    }
+
+    void read_tangent(const Member& m, Tangent& tangent) {
+        if (m.value.items.size() == 2 && m.value.items[0].is(Kind::kNumber))
+            tangent = {m.value.items[0].number, &m.value.items[1], m.value.place};
+        else
+            refuse(m.value.place, fmt::format("{} is {}; it must be [FRAMES, RISE], seen from the key",
+                                              in_quotes(m.key), m.value.shown()));
+    }
+
+    // A curve may not turn back in time, and has an end that it goes to.
+    void check_tangents(std::size_t i) {
+        const Key& key = keys[i];
+        const double before = i > 0 ? key.frame - keys[i - 1].frame : 0;
+        const double after = i + 1 < keys.size() ? keys[i + 1].frame - key.frame : 0;
+        check_tangent(key.in, "in", -before, 0);
+        check_tangent(key.out, "out", 0, after);
+        if (key.in && i > 0 && keys[i - 1].mode)
+            refuse(key.in.place,
+                   fmt::format("the curve arrives here, and the key before goes on {}",
+                               keys[i - 1].mode->shown()),
+                   "write { \"out\": [FRAMES, RISE] } there, or nothing");
+    }
+
+    void check_tangent(const Tangent& tangent, const char* name, double least, double most) {
+        if (!tangent || (tangent.frames >= least && tangent.frames <= most)) return;
+        const bool is_at_end = least == most;
+        refuse(tangent.place,
+               is_at_end
+                   ? fmt::format("'{}' leads nowhere: there is no key on that side", name)
+                   : fmt::format("'{}' goes {} frames; it must be from {} to {}, which is the next key there",
+                                 name, tangent.frames, least, most));
     }
 
     Diagnostics& diagnostics_;
@@ -123,12 +175,52 @@ Value mixed(const Value& a, const Value& b, double t) {
     return out;
 }
 
+Value sum(const Value& a, const Value& b) {
+    if (a.is(Kind::kNumber)) return number_value(a.number + b.number);
+    Value out = a;
+    for (std::size_t i = 0; i < a.items.size(); ++i) out.items[i] = sum(a.items[i], b.items[i]);
+    return out;
+}
+
+// Numbers, or lists of the same form.
+struct Part {
+    double weight;
+    Value value;
+};
+
+Value weighted(const std::array<Part, 4>& parts) {
+    Value out = parts[0].value;
+    if (out.is(Kind::kNumber)) {
+        double total = 0;
+        for (const Part& p : parts) total += p.weight * p.value.number;
+        return number_value(total);
+    }
+    for (std::size_t i = 0; i < out.items.size(); ++i) {
+        std::array<Part, 4> of_item = parts;
+        for (Part& p : of_item) p.value = Value(p.value.items[i]);
+        out.items[i] = weighted(of_item);
+    }
+    return out;
+}
+
+// What a point of a curve is, seen from a key: null is the straight way to the other one.
+Value point(const Value& key, const Tangent& tangent, const Value& other, double straight) {
+    return tangent ? sum(key, spread(*tangent.rise)) : mixed(key, other, straight);
+}
+
 class Curve {
 public:
     Curve(const std::vector<Key>& keys, Diagnostics& diagnostics) : keys_(keys), diagnostics_(diagnostics) {}
 
+    // Whether there is a way from each key to the next; where there is none, that is told.
+    bool is_sound() const {
+        for (std::size_t i = 0; i + 1 < keys_.size(); ++i)
+            if (!has_way(keys_[i], keys_[i + 1])) return false;
+        return true;
+    }
+
     // Between keys, or at `frame` beyond the first or last, as `end` says.
-    std::optional<Value> at(double frame, std::string_view before, std::string_view after) const {
+    Value at(double frame, std::string_view before, std::string_view after) const {
         const double first = keys_.front().frame, last = keys_.back().frame;
         const std::string_view end = frame < first ? before : frame > last ? after : "";
         if (end == "loop" && last > first) frame = first + modulo(frame - first, last - first);
@@ -141,20 +233,51 @@ public:
     }
 
 private:
-    std::optional<Value> between(const Key& from, const Key& to, double frame, bool beyond) const {
+    static Value between(const Key& from, const Key& to, double frame, bool beyond) {
         const Value a = spread(*from.value), b = spread(*to.value);
         const bool mixes = can_mix(a, b);
-        if (!mixes && from.mode && !from.is("hold")) {
-            graph_error(
-                diagnostics_, from.mode->place,
-                fmt::format("there is nothing between {} and {}", from.value->shown(), to.value->shown()),
-                "write \"hold\"");
-            return std::nullopt;
-        }
         if (frame >= to.frame && !beyond) return *to.value;
+        if (mixes && !beyond && (from.out || to.in)) return curved(from, to, a, b, frame);
         if (!mixes || from.is("hold")) return frame < to.frame ? *from.value : *to.value;
         const double t = (frame - from.frame) / (to.frame - from.frame);
         return mixed(a, b, from.is("smooth") && !beyond ? t * t * (3 - 2 * t) : t);
+    }
+
+    // Where it says that there is something between two keys; null where it does not.
+    static const Place* way_between(const Key& from, const Key& to) {
+        if (from.mode) return from.is("hold") ? nullptr : &from.mode->place;
+        return from.out ? &from.out.place : to.in ? &to.in.place : nullptr;
+    }
+
+    bool has_way(const Key& from, const Key& to) const {
+        const Value a = spread(*from.value);
+        if (!can_mix(a, spread(*to.value))) {
+            const Place* wanted = way_between(from, to);
+            if (wanted)
+                graph_error(
+                    diagnostics_, *wanted,
+                    fmt::format("there is nothing between {} and {}", from.value->shown(), to.value->shown()),
+                    "write \"hold\"");
+            return !wanted;
+        }
+        for (const Tangent& tangent : {from.out, to.in})
+            if (tangent && !can_mix(a, spread(*tangent.rise))) {
+                graph_error(diagnostics_, tangent.rise->place,
+                            fmt::format("a tangent rises by {}, and the value is {}; they must be alike",
+                                        tangent.rise->shown(), from.value->shown()));
+                return false;
+            }
+        return true;
+    }
+
+    static Value curved(const Key& from, const Key& to, const Value& a, const Value& b, double frame) {
+        const double frames = to.frame - from.frame;
+        const BezierWeights w = bezier_at(frame - from.frame, from.out ? from.out.frames : frames / 3,
+                                          frames + (to.in ? to.in.frames : -frames / 3), frames);
+        return weighted({{{w.start, a},
+                          {w.leaving, point(a, from.out, b, 1.0 / 3)},
+                          {w.arriving, point(b, to.in, a, 1.0 / 3)},
+                          {w.end, b}}});
     }
 
     const std::vector<Key>& keys_;
@@ -176,10 +299,11 @@ bool is_animation(const Value& value) {
 std::optional<Value> animated(const Value& animation, int frame, Diagnostics& diagnostics) {
     Reader reader(diagnostics);
     if (!reader.read(animation)) return std::nullopt;
+    const Curve curve(reader.keys, diagnostics);
+    if (!curve.is_sound()) return std::nullopt;
     const double held = held_frame(frame, reader.keys.front().frame, reader.on);
-    auto value =
-        Curve(reader.keys, diagnostics).at(held, word(animation, "before"), word(animation, "after"));
-    if (value) value->place = animation.place;
+    Value value = curve.at(held, word(animation, "before"), word(animation, "after"));
+    value.place = animation.place;
     return value;
 }
 

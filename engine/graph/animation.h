@@ -13,7 +13,8 @@ namespace keyline {
 //
 //     { "keys": [[1001, 1], [1024, 3, "smooth"], [1040, 2]], "before": "hold", "after": "loop", "on": 2 }
 //
-// The word says how it goes on from that key to the next.
+// The word says how it goes on from that key to the next.  In its place a key may have tangents, the inner
+// points of a cubic Bézier curve as seen from it: { "in": [FRAMES, RISE], "out": [FRAMES, RISE] }.
 bool is_animation(const Value& value);
 
 // What it is at a frame, with the place of the whole; nothing where it is wrong, which is told.

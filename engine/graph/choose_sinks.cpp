@@ -80,7 +80,8 @@ void warn_of_unused(const Graph& graph, Diagnostics& diagnostics) {
     std::set<int> used(in_use.begin(), in_use.end());
     for (auto it = graph.order().rbegin(); it != graph.order().rend(); ++it) {
         const GraphNode& node = graph.nodes()[static_cast<std::size_t>(*it)];
-        if (graph.variables().is_a_choice(node.id)) used.insert(*it);
+        const bool is_in_reserve = graph.variables().is_a_choice(node.id) || !node.scope->is_enabled;
+        if (is_in_reserve) used.insert(*it);
         if (used.contains(*it)) used.insert(graph.links(*it).begin(), graph.links(*it).end());
     }
     for (int i = 0; const GraphNode& node : graph.nodes())

@@ -4,8 +4,10 @@
 
 #include "engine/base/identifier.h"
 #include "engine/graph/apply_options.h"
+#include "engine/graph/enabled.h"
 #include "engine/graph/graph_error.h"
 #include "engine/graph/group.h"
+#include "engine/graph/group_search.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,35 +26,41 @@ public:
     void run(const std::shared_ptr<Scope>& scope) {
         scopes_[""] = scope;
         for (std::size_t i = 0; i < read_.nodes.size(); ++i)
-            if (const Value* type = read_.nodes[i].object.find("type"); type && is_group(type->text))
-                expand(i, Value(*type));  // nodes move when others come
+            if (const Value* type = read_.nodes[i].object.find("type");
+                type && type->is(Value::Kind::kString))
+                if (const auto file = group_file(type->text, folder_of(i)); !file.empty())
+                    expand(i, Value(*type), file);  // nodes move when others come
         std::erase_if(read_.nodes, [&](const GraphNode& n) { return expanded_.contains(n.id); });
     }
 
 private:
-    void expand(std::size_t i, const Value& type) {
+    std::filesystem::path folder_of(std::size_t i) const { return read_.nodes[i].scope->file.parent_path(); }
+
+    void expand(std::size_t i, const Value& type, const std::filesystem::path& file) {
         apply_set_options_of(read_.nodes[i]);
         GraphNode node = read_.nodes[i];
         expanded_.insert(node.id);
         const std::size_t slash = node.id.rfind('/');
         const std::size_t own = slash == std::string::npos ? 0 : slash + 1;
         const std::shared_ptr<Scope> outer = scopes_.at(node.id.substr(0, own));
-        const auto group = group_of(type, *outer, node);
+        const auto group = group_of(type, file, *outer, node);
         if (!group) {
             read_.unknown_ids.insert(node.id);
             return;
         }
         node.type = &group->type;
-        if (const Value* enabled = node.object.find("enabled"))
-            graph_error(diagnostics_, enabled->place, "a group has no 'enabled'", "choose with a variable",
-                        node.title());
+        if (const Value* enabled = node.object.find("enabled")) node.enabled = *enabled;
         for (const Member& m : node.object.members)
             if (m.key == "about") check_text(m, diagnostics_, node.title());
         std::erase_if(node.object.members, [](const Member& m) {
             return m.key == "type" || m.key == "about" || m.key == "enabled";
         });
         const std::shared_ptr<Scope> inside = inside_of(*group, node, outer);
-        outer->groups[node.id.substr(own)] = {inside, outputs_of(*group)};
+        GroupUse use{inside, outputs_of(*group)};
+        if (use.outputs.empty()) read_.unknown_ids.insert(node.id);  // told where the group is read
+        inside->is_enabled = is_enabled(node);
+        if (!inside->is_enabled) use.passes = leading_input(*group, node);
+        outer->groups[node.id.substr(own)] = std::move(use);
         add_nodes(*group, inside);
         kept_.push_back(group);
         read_.groups.push_back(std::move(node));
@@ -67,8 +75,26 @@ private:
         node = one[0];
     }
 
-    std::shared_ptr<const Group> group_of(const Value& type, const Scope& outer, const GraphNode& node) {
-        const std::filesystem::path file = group_file(type.text, outer.file.parent_path());
+    // Links are the same at all frames, so this is too.
+    bool is_enabled(const GraphNode& node) {
+        if (!enabled_moves(node)) return is_enabled_at(node, 1, diagnostics_).value_or(true);
+        graph_error(diagnostics_, node.enabled->place, "whether a group is enabled can't change over frames",
+                    "say it of a node inside it", node.title());
+        return true;
+    }
+
+    // The input that stands for what the group gives; "" where there is none, which is told.
+    std::string leading_input(const Group& group, const GraphNode& node) {
+        for (const FieldInfo& f : group.type.fields)
+            if (group.has_input(f.name) && node.object.find(f.name)) return f.name;
+        graph_error(diagnostics_, node.enabled->place,
+                    "'enabled' can't leave it out: it has no input to pass on in its place",
+                    "a variable in the next node's input chooses between two", node.title());
+        return {};
+    }
+
+    std::shared_ptr<const Group> group_of(const Value& type, const std::filesystem::path& file,
+                                          const Scope& outer, const GraphNode& node) {
         std::error_code error;
         for (const Scope* scope = &outer; scope; scope = scope->outer)
             if (std::filesystem::equivalent(scope->file, file, error)) {

@@ -3,6 +3,7 @@
 #include "engine/graph/graph.h"
 
 #include "engine/base/index.h"
+#include "engine/graph/enabled.h"
 #include "engine/graph/read_text.h"
 
 #include <algorithm>
@@ -13,8 +14,6 @@
 namespace keyline {
 
 namespace {
-
-const TypeInfo kTruth = TypeInfo::boolean();
 
 bool stands_in(const Place& place, const Value& value) {
     const auto holds = [&](const Value& v) { return stands_in(place, v); };
@@ -204,24 +203,13 @@ std::optional<Input> Graph::leading_input_of(const GraphNode& node, int frame) {
 }
 
 std::optional<bool> Graph::is_enabled(int index, int frame, Diagnostics& diagnostics) const {
-    const GraphNode& node = nodes_[static_cast<std::size_t>(index)];
-    if (!node.enabled || node.variables().uses_faulty(*node.enabled, &kTruth)) return true;
-    Diagnostics faults;
-    const Value value = node.variables().evaluate(*node.enabled, kTruth, {frame}, faults);
-    ParamReader reader(faults, node.title(), {});
-    if (faults.ok()) validate(kTruth, value, "enabled", reader);
-    for (Error e : faults.errors()) {
-        if (e.node.empty()) e.node = node.title();
-        diagnostics.error(std::move(e));
-    }
-    return faults.ok() ? std::optional(value.boolean) : std::nullopt;
+    return is_enabled_at(nodes_[static_cast<std::size_t>(index)], frame, diagnostics);
 }
 
 bool Graph::is_never_enabled(int index) const {
     Diagnostics ignored;  // they were told
     const GraphNode& node = nodes_[static_cast<std::size_t>(index)];
-    return node.enabled && !node.variables().uses_frame(*node.enabled, &kTruth) &&
-           !is_enabled(index, 1, ignored).value_or(true);
+    return node.enabled && !enabled_moves(node) && !is_enabled(index, 1, ignored).value_or(true);
 }
 
 bool Graph::names_frame(int node) const {
@@ -238,7 +226,7 @@ bool Graph::names_frame(int node) const {
 
 bool Graph::uses_frame(int node) const {
     const GraphNode& n = nodes_[static_cast<std::size_t>(node)];
-    return names_frame(node) || (n.enabled && n.variables().uses_frame(*n.enabled, &kTruth)) ||
+    return names_frame(node) || enabled_moves(n) ||
            std::ranges::any_of(n.object.members, [&](const Member& m) {
                const TypeInfo& type = type_of(n, m.key);
                return n.variables().uses_frame(m.value, &type);

@@ -8,7 +8,7 @@
 #include "engine/json/json_reader.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace keyline {
@@ -16,6 +16,8 @@ namespace keyline {
 namespace {
 
 using Kind = Value::Kind;
+
+constexpr double kMostVersion = 999'999'999;
 
 const std::vector<std::string> kTypes{"number", "integer", "bool", "text", "file", "word", "pair", "color"};
 
@@ -25,12 +27,13 @@ public:
     DeclarationReader(Group& group, Diagnostics& diagnostics) : group_(group), diagnostics_(diagnostics) {}
 
     void read() {
-        static const std::vector<std::string> kKnown{"keyline", "about",     "inputs", "parameters",
-                                                     "outputs", "variables", "nodes",  "$schema"};
+        static const std::vector<std::string> kKnown{"keyline", "version",   "about", "inputs", "parameters",
+                                                     "outputs", "variables", "nodes", "$schema"};
         for (const Member& m : group_.root.members) {
             if (std::ranges::find(kKnown, m.key) == kKnown.end()) unknown_key(m, kKnown);
             if (m.key == "about" || m.key == "$schema") check_text(m, diagnostics_);
         }
+        read_version();
         const Value& nodes = *group_.root.find("nodes");
         if (!nodes.is(Kind::kObject))
             refuse(nodes.place,
@@ -45,6 +48,16 @@ public:
     }
 
 private:
+    void read_version() {
+        const Value* given = group_.root.find("version");
+        if (!given) return;
+        if (const auto version = version_of_group(group_.root))
+            group_.type.version = *version;
+        else
+            refuse(given->place,
+                   fmt::format("'version' is {}; it must be a whole number from 1 on", given->shown()));
+    }
+
     template <class Read>
     void each(const char* key, const Read& read) {
         const Value* list = group_.root.find(key);
@@ -162,7 +175,10 @@ private:
     }
 
     void read_output(const Member& m) {
-        if (m.value.is(Kind::kString)) return group_.outputs.push_back({m.key, m.value});
+        if (m.value.is(Kind::kString)) {
+            group_.type.outputs.push_back(m.key);
+            return group_.outputs.push_back({m.key, m.value});
+        }
         refuse(m.value.place,
                fmt::format("'{}' is {}; it must be \"NODE\" or \"NODE:LAYER\"", m.key, m.value.shown()));
     }
@@ -178,19 +194,11 @@ bool Group::has_input(std::string_view name) const {
     return it != type.fields.end() && it->type.kind == TypeInfo::Kind::kInput;
 }
 
-std::filesystem::path group_file(const std::string& name, const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> folders{folder};
-    const char* path = std::getenv("KEYLINE_PATH");
-    std::string rest = path ? path : "";
-    while (!rest.empty()) {
-        const std::size_t colon = std::min(rest.find(':'), rest.size());
-        folders.emplace_back(rest.substr(0, colon));
-        rest.erase(0, colon + 1);
-    }
-    std::error_code error;
-    for (const auto& f : folders)
-        if (std::filesystem::exists(f / name, error)) return f / name;
-    return folder / name;
+std::optional<int> version_of_group(const Value& root) {
+    const Value* version = root.find("version");
+    const bool is_one = version && version->is(Kind::kNumber) && version->number >= 1 &&
+                        version->number <= kMostVersion && version->number == std::floor(version->number);
+    return is_one ? std::optional(static_cast<int>(version->number)) : std::nullopt;
 }
 
 std::shared_ptr<const Group> group_from(const std::filesystem::path& file, const Value& root,
@@ -198,7 +206,7 @@ std::shared_ptr<const Group> group_from(const std::filesystem::path& file, const
     auto group = std::make_shared<Group>();
     group->file = file;
     group->type.name = file.stem().string();
-    group->type.kind = NodeKind::kCompound;
+    group->type.kind = NodeKind::kGroup;
     group->root = root;
     DeclarationReader(*group, diagnostics).read();
     return group;

@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ struct Group {
     bool has_input(std::string_view name) const;
 };
 
-// Where a group's file is that is used in `folder`: there, else in the folders of $KEYLINE_PATH.
-std::filesystem::path group_file(const std::string& name, const std::filesystem::path& folder);
+// The version that a group's file says; nothing where it says none, or what is none.
+std::optional<int> version_of_group(const Value& root);
 
 // Reads a group's file.  What is wrong with its declarations is told; null where it can't be read at all.
 std::shared_ptr<const Group> read_group(const std::filesystem::path& file, const Place& use,
@@ -39,8 +40,5 @@ std::shared_ptr<const Group> read_group(const std::filesystem::path& file, const
 // The same of what a text says, which has 'nodes' and 'keyline'.
 std::shared_ptr<const Group> group_from(const std::filesystem::path& file, const Value& root,
                                         Diagnostics& diagnostics);
-
-// Whether a node's type means a file.
-inline bool is_group(std::string_view type) { return type.ends_with(".json"); }
 
 }  // namespace keyline

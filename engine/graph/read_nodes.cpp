@@ -6,6 +6,7 @@
 #include "engine/graph/apply_options.h"
 #include "engine/graph/expand_groups.h"
 #include "engine/graph/graph_error.h"
+#include "engine/graph/group_search.h"
 #include "engine/graph/variable_files.h"
 #include "engine/json/json_reader.h"
 #include "engine/node/registry.h"
@@ -87,11 +88,6 @@ Shot read_shot(const Value& root, Diagnostics& diagnostics) {
     return shot;
 }
 
-std::string near_type(const std::string& type) {
-    const std::string hint = did_you_mean(type, registry().names());
-    return hint.empty() ? "'keyline nodes' lists those there are" : hint;
-}
-
 // Those of --set that are for nodes: groups have had theirs.
 std::vector<OptionValue> options_for_nodes(std::vector<OptionValue> options,
                                            const std::vector<GraphNode>& groups) {
@@ -155,7 +151,8 @@ private:
         else if (!type->is(Value::Kind::kString))
             error(type->place, fmt::format("'type' is {}; it must be a string", type->shown()));
         else if (!(node.type = registry().find(type->text)))
-            error(type->place, "there is no node type " + in_quotes(type->text), near_type(type->text));
+            error(type->place, "there is no node type " + in_quotes(type->text),
+                  near_type(type->text, node.scope->file.parent_path()));
         else if (node.scope->outer && node.type->kind == NodeKind::kSink)
             error(type->place, "a group writes nothing", "write what it gives where it is used");
         for (const Member& m : node.object.members)

@@ -58,7 +58,8 @@ std::optional<std::string> whole_link(const Scope& scope, const std::string& lin
         return out ? std::optional(with_selector(std::move(*out), selector)) : std::nullopt;
     }
     const auto group = scope.groups.find(id);
-    if (group == scope.groups.end()) return with_selector(scope.prefix + id, selector);
+    if (group == scope.groups.end() || group->second.outputs.empty())
+        return with_selector(scope.prefix + id, selector);
     const auto& outputs = group->second.outputs;
     auto output = std::ranges::find(outputs, selector, &GroupUse::Output::name);
     if (output == outputs.end())
@@ -66,6 +67,8 @@ std::optional<std::string> whole_link(const Scope& scope, const std::string& lin
     else
         selector.clear();
     const Scope& inside = *group->second.inside;
+    if (!group->second.passes.empty())
+        return whole_link(inside, with_selector(group->second.passes, selector), frame);
     auto out = whole_link(inside, text_of(output->link, *inside.variables, frame), frame);
     return out ? std::optional(with_selector(std::move(*out), selector)) : std::nullopt;
 }

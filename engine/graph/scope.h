@@ -24,6 +24,7 @@ struct GroupUse {
     };
     std::shared_ptr<const Scope> inside;
     std::vector<Output> outputs;  // the first is what the id alone means
+    std::string passes = {};      // its input that stands for all of them, where the group is not enabled
 };
 
 // What the names in a node mean: in the graph itself, or in one use of a group.
@@ -33,6 +34,7 @@ struct Scope {
     std::filesystem::path folder;  // what relative paths in it are relative to
     std::shared_ptr<const Variables> variables;
     const Scope* outer = nullptr;  // where the group is used, which holds this; null: the graph itself
+    bool is_enabled = true;        // false: nobody sees what the group gives
     std::map<std::string, std::optional<Value>> inputs =
         {};                                       // of the group: links as written there; none: not connected
     std::map<std::string, GroupUse> groups = {};  // those used in it, by the ids that they have in it

@@ -73,6 +73,7 @@ const char* node_kind_name(NodeKind kind) {
         case NodeKind::kDerive: return "derivation";
         case NodeKind::kSource: return "source";
         case NodeKind::kSink: return "sink";
+        case NodeKind::kGroup: return "group";
         case NodeKind::kCompound: break;
     }
     return "compound";

@@ -13,7 +13,7 @@
 
 namespace KEYLINE_API keyline {
 
-enum class NodeKind { kPoint, kStencil, kGather, kDerive, kSource, kSink, kCompound };
+enum class NodeKind { kPoint, kStencil, kGather, kDerive, kSource, kSink, kCompound, kGroup };
 const char* node_kind_name(NodeKind kind);
 
 // One node of a graph with its parameters parsed: knows its inputs and files, and can be resolved for a
@@ -39,7 +39,7 @@ struct NodeType {
     int version = 1;
     NodeKind kind = NodeKind::kPoint;
     std::vector<FieldInfo> fields;     // inputs and parameters in declared order
-    std::vector<std::string> outputs;  // the channels it makes; empty: those of its input
+    std::vector<std::string> outputs;  // the channels it makes; empty: those of its input.  A group's links
     std::string gives;                 // the kind of data that it makes instead; "": pixels
 
     // Makes a node of the members of its object (without `type` and `about`) that have been validated.  Null

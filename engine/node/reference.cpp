@@ -40,12 +40,29 @@ std::string type_text(const TypeInfo& type) {
 }
 
 std::string outputs_text(const NodeType& type) {
-    if (type.kind == NodeKind::kSink || !type.gives.empty()) return "";
+    const bool has_none = type.kind == NodeKind::kSink || type.kind == NodeKind::kGroup;
+    if (has_none || !type.gives.empty()) return "";
     if (type.kind == NodeKind::kSource) return "the file's channels";
     if (type.outputs.empty()) return "those of its input";
     std::string out;
     for (const std::string& name : type.outputs) out += (out.empty() ? "" : " ") + name;
     return out;
+}
+
+// What links to a group may ask it for.
+std::string links_text(const NodeType& type) {
+    if (type.kind != NodeKind::kGroup) return "";
+    std::string out;
+    for (const std::string& name : type.outputs)
+        out +=
+            out.empty() ? name + (type.outputs.size() > 1 ? ", which the id alone means" : "") : "; " + name;
+    return out;
+}
+
+// What a type is: a group may have versions.
+std::string kind_text(const NodeType& type) {
+    const bool says_version = type.kind == NodeKind::kGroup && type.version > 1;
+    return says_version ? fmt::format("group, version {}", type.version) : node_kind_name(type.kind);
 }
 
 // Breaks text at blanks so that lines stay below `width` columns, each indented.
@@ -71,11 +88,13 @@ std::string wrapped(std::string_view text, std::size_t indent, std::string label
 class TerminalText {
 public:
     void node(const NodeType& type) {
-        out_ += fmt::format("{} ({})\n", type.name, node_kind_name(type.kind)) + wrapped(type.help, 2);
+        out_ += fmt::format("{} ({})\n", type.name, kind_text(type)) + wrapped(type.help, 2);
         fields("inputs", type.fields, true);
         fields("parameters", type.fields, false);
         if (const std::string outputs = outputs_text(type); !outputs.empty())
             out_ += "\nchannels\n" + wrapped(outputs, 2);
+        if (const std::string links = links_text(type); !links.empty())
+            out_ += "\noutputs\n" + wrapped(links, 2);
         if (!type.gives.empty()) out_ += "\ngives\n" + wrapped(type.gives + ", not pixels", 2);
     }
     const std::string& text() const { return out_; }
@@ -110,11 +129,13 @@ private:
 class MarkdownText {
 public:
     void node(const NodeType& type) {
-        out_ += fmt::format("\n### {}\n\n{} ({})\n", type.name, type.help, node_kind_name(type.kind));
+        out_ += fmt::format("\n### {}\n\n{} ({})\n", type.name, type.help, kind_text(type));
         if (!type.fields.empty()) out_ += "\n| name | type | default | |\n| --- | --- | --- | --- |\n";
         for (const FieldInfo& f : type.fields) row(f, "");
         if (const std::string outputs = outputs_text(type); !outputs.empty())
             out_ += fmt::format("\nChannels: {}.\n", outputs);
+        if (const std::string links = links_text(type); !links.empty())
+            out_ += fmt::format("\nOutputs: {}.\n", links);
         if (!type.gives.empty()) out_ += fmt::format("\nGives {}, not pixels.\n", type.gives);
     }
     void heading(const std::string& text) { out_ += fmt::format("\n## {}\n", text); }
@@ -158,15 +179,18 @@ private:
 
 }  // namespace
 
-std::string node_list_text() {
+std::string node_list_text(const std::vector<NodeType>& groups) {
     std::size_t width = 0;
     for (const auto& [name, type] : registry().types()) width = std::max(width, name.size());
+    for (const NodeType& t : groups) width = std::max(width, t.name.size());
     std::string out;
+    const auto line = [&](const NodeType& t) { out += fmt::format("  {:<{}}  {}\n", t.name, width, t.help); };
     for (const std::string& room : registry().rooms()) {
         out += fmt::format("{}{}\n", out.empty() ? "" : "\n", heading_of(room));
-        for (const NodeType* t : registry().types_in(room))
-            out += fmt::format("  {:<{}}  {}\n", t->name, width, t->help);
+        for (const NodeType* t : registry().types_in(room)) line(*t);
     }
+    if (!groups.empty()) out += "\nGroups\n";
+    std::ranges::for_each(groups, line);
     return out;
 }
 
@@ -176,13 +200,15 @@ std::string node_text(const NodeType& type) {
     return text.text();
 }
 
-std::string reference_markdown() {
+std::string reference_markdown(const std::vector<NodeType>& groups) {
     MarkdownText text;
     text.text() = "# Nodes\n\nWritten by `keyline nodes --markdown` from the nodes' own declarations.\n";
     for (const std::string& room : registry().rooms()) {
         text.heading(heading_of(room));
         for (const NodeType* t : registry().types_in(room)) text.node(*t);
     }
+    if (!groups.empty()) text.heading("Groups");
+    for (const NodeType& t : groups) text.node(t);
     return std::move(text.text());
 }
 

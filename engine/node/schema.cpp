@@ -25,6 +25,10 @@ constexpr const char* kGraph = R"json({
   "properties": {
     "$schema": { "description": "Where this schema lies.", "type": "string" },
     "keyline": { "description": "The version of the format: 1.", "const": 1 },
+    "version": {
+      "description": "Of a group: its version, which a node's type may ask for, as in canny@2.",
+      "type": "integer", "minimum": 1, "maximum": 999999999
+    },
     "about": { "description": "What the graph is for, in words.", "type": "string" },
     "variables": {
       "description": "Values that have a name: ${name} in any string, name in an expression.",
@@ -82,7 +86,7 @@ constexpr const char* kGraph = R"json({
       "nodes": { "additionalProperties": { "properties": { "type": { "not": { "$ref": "#/$defs/keyline.sink" } } } } }
     }
   },
-  "else": { "properties": { "inputs": false, "parameters": false } }
+  "else": { "properties": { "version": false, "inputs": false, "parameters": false } }
 })json";
 
 constexpr const char* kDefinitions = R"json({
@@ -169,22 +173,14 @@ constexpr const char* kDefinitions = R"json({
         ] } } }
       }
     ]
-  },
-  "keyline.group": {
-    "description": "A node whose type is a graph file.  What it takes, that file says.",
-    "properties": {
-      "about": { "description": "What the node is for, in words.", "type": "string" },
-      "enabled": false
-    }
   }
 })json";
 
 constexpr const char* kGroupFile =
     R"json({ "description": "The file of a group.", "pattern": "\\.json$" })json";
-constexpr const char* kOwn = R"json({{
-  "type": {{ "const": "{}" }},
-  "about": {{ "description": "What the node is for, in words.", "type": "string" }}
-}})json";
+constexpr const char* kAbout =
+    R"json({ "description": "What the node is for, in words.", "type": "string" })json";
+constexpr const char* kOwn = R"json({{ "type": {{ "const": "{}" }}, "about": {} }})json";
 
 FieldInfo enabled_field() {
     return {"enabled",
@@ -194,6 +190,8 @@ FieldInfo enabled_field() {
 
 class Schema {
 public:
+    explicit Schema(const std::vector<NodeType>& groups) : groups_(groups) {}
+
     std::string text() {
         json_.begin_object();
         members(parse_json(kGraph, "graph"));
@@ -202,11 +200,9 @@ public:
         write_schema_definitions(json_);
         node();
         sink();
-        for (const auto& [name, type] : registry().types()) {
-            json_.key(name).begin_object().field("description", type.help);
-            write_schema_of_fields(json_, fields_of(type), own_of(name));
-            json_.end_object();
-        }
+        group_file();
+        for (const auto& [name, type] : registry().types()) define(type);
+        for (const NodeType& group : groups_) define(group);
         return json_.end_object().end_object().text();
     }
 
@@ -228,6 +224,7 @@ private:
         json_.key("allOf").begin_array();
         choice("keyline.group", "pattern", "\\.json$");
         for (const std::string& name : registry().names()) choice(name, "const", name);
+        for (const NodeType& group : groups_) choice(group.name, "const", group.name);
         json_.end_array().end_object();
     }
 
@@ -240,6 +237,21 @@ private:
         json_.key("then").begin_object().field("$ref", "#/$defs/" + definition).end_object().end_object();
     }
 
+    void define(const NodeType& type) {
+        json_.key(type.name).begin_object().field("description", type.help);
+        write_schema_of_fields(json_, fields_of(type), own_of(type.name));
+        json_.end_object();
+    }
+
+    // What else it takes, the file says.
+    void group_file() {
+        json_.key("keyline.group").begin_object();
+        json_.field("description", "A node whose type is a graph file.  What it takes, that file says.");
+        json_.key("properties").begin_object().key("about").value(parse_json(kAbout, "about"));
+        write_schema_of_property(json_, enabled_field());
+        json_.end_object().end_object();
+    }
+
     void sink() {
         std::vector<std::string> names;
         for (const auto& [name, type] : registry().types())
@@ -247,9 +259,10 @@ private:
         json_.key("keyline.sink").begin_object().key("enum").list(names).end_object();
     }
 
-    static std::vector<TypeInfo::WordInfo> types() {
+    std::vector<TypeInfo::WordInfo> types() const {
         std::vector<TypeInfo::WordInfo> out;
         for (const auto& [name, type] : registry().types()) out.push_back({name, type.help});
+        for (const NodeType& group : groups_) out.push_back({group.name, group.help});
         return out;
     }
 
@@ -259,13 +272,16 @@ private:
         return out;
     }
 
-    static Value own_of(const std::string& type) { return parse_json(fmt::format(kOwn, type), "own"); }
+    static Value own_of(const std::string& type) {
+        return parse_json(fmt::format(kOwn, type, kAbout), "own");
+    }
 
+    const std::vector<NodeType>& groups_;
     JsonWriter json_{JsonWriter::Style::kIndented};
 };
 
 }  // namespace
 
-std::string schema_json() { return Schema().text(); }
+std::string schema_json(const std::vector<NodeType>& groups) { return Schema(groups).text(); }
 
 }  // namespace keyline

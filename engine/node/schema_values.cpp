@@ -63,9 +63,34 @@ constexpr const char* kKey = R"json({
       { "const": "linear", "description": "At the same pace." },
       { "const": "smooth", "description": "It starts and arrives gently." },
       { "const": "hold", "description": "It stays until the next key." },
+      { "$ref": "#/$defs/keyline.tangents" },
       { "$ref": "#/$defs/keyline.template" },
       { "$ref": "#/$defs/keyline.expression" }
     ] }
+  ]
+})json";
+
+constexpr const char* kTangents = R"json({
+  "description": "The inner points of a cubic Bézier curve, seen from the key.",
+  "type": "object",
+  "properties": {
+    "in": { "description": "[FRAMES, RISE] of the point that the curve arrives from; FRAMES is below 0.", "$ref": "#/$defs/keyline.tangent" },
+    "out": { "description": "[FRAMES, RISE] of the point that the curve leaves for.", "$ref": "#/$defs/keyline.tangent" }
+  },
+  "additionalProperties": false
+})json";
+
+constexpr const char* kTangent = R"json({
+  "anyOf": [
+    {
+      "type": "array", "minItems": 2, "maxItems": 2,
+      "prefixItems": [
+        { "anyOf": [{ "type": "number" }, { "$ref": "#/$defs/keyline.variable" }, { "$ref": "#/$defs/keyline.expression" }] },
+        true
+      ]
+    },
+    { "$ref": "#/$defs/keyline.variable" },
+    { "$ref": "#/$defs/keyline.expression" }
   ]
 })json";
 
@@ -101,19 +126,19 @@ public:
         json_.begin_object().field("type", "string").field("pattern", pattern).end_object();
     }
 
+    void field(const FieldInfo& f) {
+        json_.key(f.name).begin_object().field("description", description(f));
+        if (!f.required && !f.default_value.is(Value::Kind::kNull)) json_.field("default", f.default_value);
+        any_of(f.type);
+        json_.end_object();
+    }
+
 private:
     void required(const std::vector<FieldInfo>& fields) {
         std::vector<std::string> names;
         for (const FieldInfo& f : fields)
             if (f.required) names.push_back(f.name);
         if (!names.empty()) json_.key("required").list(names);
-    }
-
-    void field(const FieldInfo& f) {
-        json_.key(f.name).begin_object().field("description", description(f));
-        if (!f.required && !f.default_value.is(Value::Kind::kNull)) json_.field("default", f.default_value);
-        any_of(f.type);
-        json_.end_object();
     }
 
     static std::string description(const FieldInfo& f) {
@@ -246,12 +271,16 @@ void write_schema_definitions(JsonWriter& json) {
     json.key("not").begin_object().field("pattern", broken_reference()).end_object().end_object();
     json.field("keyline.keys", parse_json(kKeys, "keys"));
     json.field("keyline.key", parse_json(kKey, "key"));
+    json.field("keyline.tangents", parse_json(kTangents, "tangents"));
+    json.field("keyline.tangent", parse_json(kTangent, "tangent"));
     json.field("keyline.beyond", parse_json(kBeyond, "beyond"));
 }
 
 void write_schema_of_fields(JsonWriter& json, const std::vector<FieldInfo>& fields, const Value& own) {
     ValueSchema(json).object(fields, own);
 }
+
+void write_schema_of_property(JsonWriter& json, const FieldInfo& field) { ValueSchema(json).field(field); }
 
 void write_schema_of_words(JsonWriter& json, const std::vector<TypeInfo::WordInfo>& words) {
     ValueSchema(json).words(words);

@@ -17,6 +17,9 @@ void write_schema_definitions(JsonWriter& json);
 // others.  `own` has the properties that it has beside them, as `"name": {…}, …`.
 void write_schema_of_fields(JsonWriter& json, const std::vector<FieldInfo>& fields, const Value& own = {});
 
+// One such field, as a member of an object that is open: "name": {…}.
+void write_schema_of_property(JsonWriter& json, const FieldInfo& field);
+
 // { "const": WORD, "description": HELP } for each: an editor that offers the word shows what it means.
 void write_schema_of_words(JsonWriter& json, const std::vector<TypeInfo::WordInfo>& words);
 

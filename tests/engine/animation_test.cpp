@@ -21,6 +21,13 @@ std::string at(std::string_view json, const std::vector<int>& frames) {
     return out;
 }
 
+double number(std::string_view json, int frame) {
+    Diagnostics diagnostics;
+    const auto value = animated(parse_json(json, "g.json"), frame, diagnostics);
+    EXPECT_TRUE(value);
+    return value ? value->number : 0;
+}
+
 std::string fault(std::string_view json) {
     Diagnostics diagnostics;
     EXPECT_FALSE(animated(parse_json(json, "g.json"), 1, diagnostics));
@@ -69,6 +76,56 @@ TEST(Animation, StandsForSomeFrames) {
     EXPECT_EQ(at(R"({"keys": [[1001, 0], [1009, 8]], "on": 2})", {1001, 1002, 1003, 1004, 1009, 1010}),
               "0 0 2 2 8 8");
     EXPECT_EQ(at(R"({"keys": [[1, 0], [9, 8]], "on": 3, "before": "extend"})", {-2, -1, 0, 1}), "-3 -3 -3 0");
+}
+
+TEST(Animation, CurvesByTangents) {
+    const std::string gently = R"({"keys": [[0, 0, {"out": [4, 0]}], [8, 16, {"in": [-4, 0]}]]})";
+    EXPECT_EQ(at(gently, {-1, 0, 4, 8, 9}), "0 0 8 16 16");
+    EXPECT_LT(number(gently, 1), 0.6);   // straight is 2
+    EXPECT_GT(number(gently, 7), 15.4);  // straight is 14
+
+    // Without one on the other side it goes straight there; that a third of the way off is no tangent at all.
+    const double third = 8.0 / 3;
+    EXPECT_NEAR(number(fmt::format(R"({{"keys": [[0, 0, {{"out": [{0}, {0}]}}], [8, 8]]}})", third), 5), 5,
+                1e-12);
+    EXPECT_NEAR(number(fmt::format(R"({{"keys": [[0, 0], [8, 8, {{"in": [-{0}, -{0}]}}]]}})", third), 5), 5,
+                1e-12);
+
+    // A ball that is thrown: up and down again between equal keys.
+    EXPECT_EQ(at(R"({"keys": [[0, 1, {"out": [4, 8]}], [8, 1, {"in": [-4, 8]}]]})", {4}), "7");
+    EXPECT_EQ(at(R"({"keys": [[0, [0, 1], {"out": [4, [0, 4]]}], [8, [8, 1], {"in": [-4, [0, 4]]}]]})", {4}),
+              "[4,4]");
+    EXPECT_EQ(
+        at(R"({"keys": [[0, "#000000", {"out": [1, "#000000"]}], [2, "#ffffff", {"in": [-1, "#000000"]}]]})",
+           {1}),
+        "[0.5,0.5,0.5]");
+    EXPECT_EQ(at(R"({"keys": [[0, 0, {"out": [4, 0]}], [8, 16, {"in": [-4, 0]}]], "after": "loop"})", {12}),
+              "8");
+}
+
+TEST(Animation, TangentsLeadSomewhere) {
+    EXPECT_EQ(fault(R"({"keys": [[0, 0, {"out": [5, 0]}], [4, 8]]})"),
+              "g.json:1:26: error: 'out' goes 5 frames; it must be from 0 to 4, which is the next key there");
+    EXPECT_EQ(fault(R"({"keys": [[0, 0], [4, 8, {"in": [1, 0]}]]})"),
+              "g.json:1:33: error: 'in' goes 1 frames; it must be from -4 to 0, which is the next key there");
+    EXPECT_EQ(fault(R"({"keys": [[0, 0, {"in": [-1, 0]}], [4, 8]]})"),
+              "g.json:1:25: error: 'in' leads nowhere: there is no key on that side");
+    EXPECT_EQ(fault(R"({"keys": [[0, 0], [4, 8, {"out": [1, 0]}]]})"),
+              "g.json:1:34: error: 'out' leads nowhere: there is no key on that side");
+    EXPECT_EQ(fault(R"({"keys": [[0, 0, {"out": 3}], [4, 8]]})"),
+              "g.json:1:26: error: 'out' is 3; it must be [FRAMES, RISE], seen from the key");
+    EXPECT_EQ(fault(R"({"keys": [[0, 0, {"uot": [1, 3]}], [4, 8]]})"),
+              "g.json:1:19: error: unknown key 'uot'; a key's tangents are 'in' and 'out'");
+    EXPECT_EQ(fault(R"({"keys": [[0, 0, "hold"], [4, 8, {"in": [-1, 0]}]]})"),
+              "g.json:1:41: error: the curve arrives here, and the key before goes on \"hold\"; write "
+              "{ \"out\": [FRAMES, RISE] } there, or nothing");
+    EXPECT_EQ(fault(R"({"keys": [[0, 0, {"out": [1, [2, 3]]}], [4, 8]]})"),
+              "g.json:1:30: error: a tangent rises by [2,3], and the value is 0; they must be alike");
+    EXPECT_EQ(fault(R"({"keys": [[0, 5], [1, 0], [4, 8, {"in": [-1, [0, 0]]}]]})"),
+              "g.json:1:46: error: a tangent rises by [0,0], and the value is 0; they must be alike")
+        << "whatever the frame";
+    EXPECT_EQ(fault(R"({"keys": [[0, "disk", {"out": [1, 3]}], [4, "square"]]})"),
+              "g.json:1:31: error: there is nothing between \"disk\" and \"square\"; write \"hold\"");
 }
 
 TEST(Animation, FaultsAreTold) {

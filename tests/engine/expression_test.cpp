@@ -127,6 +127,7 @@ TEST(Expression, NoiseIsSmoothAndDiffersBySeed) {
 
 TEST(Expression, FaultsAreToldWhereTheyStand) {
     EXPECT_EQ(fault("= 2 * hieght"), "at 6: unknown name 'hieght'; did you mean 'height'?");
+    EXPECT_EQ(fault("= pow(2, 3)"), "at 2: there is no function 'pow'; a power is written x ^ y");
     EXPECT_EQ(fault("= mx(1, 2)"), "at 2: there is no function 'mx'; did you mean 'max'?");
     EXPECT_EQ(fault("= clamp(1, 2)"), "at 2: 'clamp' takes (x, low, high); it is given 2 values");
     EXPECT_EQ(fault("= 1 +"), "at 5: expected a value, found the end of the expression");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/graph/graph.h"
 #include "engine/graph/group.h"
+#include "engine/graph/group_search.h"
 #include "engine/json/json_reader.h"
 #include "engine/node/reference.h"
 #include "engine/node/registry.h"
@@ -75,7 +76,7 @@ protected:
     // Of what must be there, as a validator that lists all of them counts.
     int faults(const std::string& graph) const { return schema_.missing(parse_json(graph, "g.json")); }
 
-    const Value root_ = parse_json(schema_json(), "schema.json");
+    const Value root_ = parse_json(schema_json(types_of(shipped_groups())), "schema.json");
     const JsonSchema schema_{root_};
 };
 
@@ -120,6 +121,11 @@ TEST_F(Schema, TakesExpressionsAndKeysWhereTheLoaderDoes) {
     EXPECT_TRUE(gaussian(R"("= 1 + 1")"));
     EXPECT_TRUE(gaussian(R"(["= 1", 2])"));
     EXPECT_TRUE(gaussian(R"({"keys": [[1, 1], [2, 3, "smooth"]], "before": "loop", "on": 2})"));
+    EXPECT_TRUE(gaussian(R"({"keys": [[1, 1, {"out": [1, 0]}], [4, 3, {"in": ["= -1", "${r}"]}]]})"));
+    EXPECT_TRUE(gaussian(R"({"keys": [[1, [1, 2], {"out": [1, [0, 0]], "in": "${t}"}]]})"));
+    EXPECT_FALSE(gaussian(R"({"keys": [[1, 1, {"uot": [1, 0]}], [4, 3]]})"));
+    EXPECT_FALSE(gaussian(R"({"keys": [[1, 1, {"out": [1]}], [4, 3]]})"));
+    EXPECT_FALSE(gaussian(R"({"keys": [[1, 1, {"out": ["1", 0]}], [4, 3]]})"));
     EXPECT_FALSE(gaussian(R"("1 + 1")"));
     EXPECT_FALSE(gaussian(R"({"keys": []})"));
     EXPECT_FALSE(gaussian(R"({"keys": [[1]]})"));
@@ -254,12 +260,20 @@ const std::vector<Part> kParts{
      {R"({"a": {"type": "constant", "color": "#000000", "size": [4, 4]}, "out": {"type": "write", "in": "a", "file": "a.exr"}})",
       R"({"a": {"type": "constant", "color": [0, "= 1", 0], "size": [4, 4], "about": "it"},
           "out": {"type": "write", "in": "a", "file": "a.exr", "enabled": "= 1 > 0"}})",
-      R"({"a": {"type": "group.json", "gain": 2}, "out": {"type": "write", "in": "a", "file": "a.exr"}})"},
+      R"({"a": {"type": "group.json", "gain": 2}, "out": {"type": "write", "in": "a", "file": "a.exr"}})",
+      R"({"a": {"type": "constant", "color": "#000000", "size": [4, 4]},
+          "b": {"type": "canny", "in": "a", "sigma": "= 1 + 1", "enabled": false},
+          "c": {"type": "groups/canny.json", "in": "a", "enabled": "= 1 > 2", "about": "it"},
+          "out": {"type": "write", "in": "b", "file": "a.exr"}})"},
      {"[]", R"({"a": {"color": "#000000"}})", R"({"a": {"type": 1}})", R"({"a": {"type": "costant"}})",
       R"({"1a": {"type": "constant", "color": "#000000", "size": [4, 4]}})", R"({"a": 1})",
       R"({"a": {"type": "constant", "color": "#000000", "size": [4, 4], "about": 1}})",
       R"({"a": {"type": "constant", "color": "#000000", "size": [4, 4], "enabled": 1}})",
-      R"({"a": {"type": "group.json", "enabled": true}})", R"({"a": {"type": "group.json", "about": 1}})"}},
+      R"({"a": {"type": "group.json", "enabled": 1}})", R"({"a": {"type": "group.json", "about": 1}})",
+      R"({"a": {"type": "canny", "in": "b", "sgma": 1}})",
+      R"({"a": {"type": "canny", "in": "b", "low": "1"}})", R"({"a": {"type": "canny"}})",
+      R"({"a": {"type": "cany", "in": "b"}})", R"({"a": {"type": "canny@99", "in": "b"}})",
+      R"({"a": {"type": "canny", "in": "b", "enabled": 1}})"}},
 };
 
 const std::vector<Part> kGraphParts{
@@ -269,11 +283,13 @@ const std::vector<Part> kGraphParts{
      {"5", R"("a")", R"("1-")", R"("1x2")", R"("1-9x0")"}},
     {"fps", {"", "24", "23.976"}, {"0", "-1", R"("24")"}},
     {"ocio", {"", R"("show.ocio")"}, {"1", R"("")"}},
+    {"version", {""}, {"1"}},
     {"inputs", {""}, {"{}"}},
     {"parameters", {""}, {"{}"}},
 };
 
 const std::vector<Part> kGroupParts{
+    {"version", {"", "1", "12.0"}, {"0", "1.5", R"("1")", "-1", "null"}},
     {"include", {""}, {R"("vars.json")"}},
     {"fps", {""}, {"24"}},
     {"outputs",

@@ -42,4 +42,5 @@ file(WRITE ${FOLDER}/graph.json "{\"keyline\": 1, \"nodes\": {
   \"in\": {\"type\": \"read\", \"file\": \"${FOLDER}/steps.exr\"},
   \"out\": {\"type\": \"write\", \"in\": \"in\", \"file\": \"steps.png\"}}}")
 run(${prefix}/bin/keyline render ${FOLDER}/graph.json --progress none)
+run(${prefix}/bin/keyline nodes canny)
 run(${prefix}/bin/keyline info ${FOLDER}/steps.png)

@@ -3,6 +3,7 @@
 #include "engine/io/helper/helper.h"
 
 #include "engine/base/error.h"
+#include "engine/base/library_place.h"
 #include "engine/io/helper/descriptors.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <map>
@@ -328,10 +328,7 @@ void Helper::give_up(std::string_view what_the_library_did) {
 bool helper_is_running(const HelperProgram& program) { return keeper_of(program).is_running(); }
 
 std::filesystem::path helper_folder() {
-    Dl_info library = {};
-    if (dladdr(reinterpret_cast<void*>(&helper_folder), &library) == 0 || library.dli_fname == nullptr)
-        fail(ErrorKind::kInternal, "the folder of the Keyline library is not known");
-    const std::filesystem::path folder = std::filesystem::absolute(library.dli_fname).parent_path();
+    const std::filesystem::path folder = library_folder();
     // A program that holds the engine itself, as the tests do, lies beside the library's folder and not in
     // it.
     std::error_code none;
