@@ -58,7 +58,7 @@ for graph in garden poster; do
   build/release/bin/keyline render graphs/$graph.json --frames 12 --progress none --no-provenance \
     --var out="$PWD/$images/$graph.png"
 done
-for hand in cleanup brush pencil technical comic; do
+for hand in night cleanup brush pencil technical comic; do
   build/release/bin/keyline render "graphs/$hand.json" --frames 12 --progress none --no-provenance \
     --var out="$PWD/$images/$hand.webp"
 done
@@ -82,6 +82,7 @@ render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
   echo
   echo "![poster](images/poster.png)"
   echo
+  hand night "The tones, the lines and the rim of moonlight are groups: a node each."
   hand cleanup "Every line closed and of one width, as painters want it; blue is where the shadow will end."
   hand brush "The side away from the sun swells, ends lift, and what is painted dark is filled."
   hand pencil "Each line twice, by a hand that looks for it; the hatching does not move when the lines do."

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/program/program.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 // Groups: graph files that are node types.
@@ -11,6 +12,7 @@ namespace keyline::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kSource = R"("c": { "type": "constant", "color": [1, 0.5, 0], "size": [40, 20] },
     "part": { "type": "crop", "in": "c", "region": [10, 5, 20, 10] },)";
@@ -94,6 +96,107 @@ TEST_F(Groups, AreDocumentedAsNodesAre) {
     EXPECT_THAT(text, HasSubstr("Softer"));
     EXPECT_THAT(text, HasSubstr("How soft"));
     EXPECT_THAT(text, HasSubstr("from 0 to 9"));
+    EXPECT_THAT(text, HasSubstr("out, which the id alone means; less; toned"));
+}
+
+TEST_F(Groups, PassTheirInputOnWhereTheyAreNotEnabled) {
+    const std::string part = pixels("", "part");
+    const std::string group = R"("g": { "type": "groups/twice.json", "in": "part", "enabled": )";
+    EXPECT_EQ(pixels(group + "false },", "g"), part);
+    EXPECT_EQ(pixels(group + "true },", "g", {"--set", "g.enabled=false"}), part);
+    EXPECT_NE(pixels(group + "true },", "g"), part);
+    EXPECT_EQ(pixels(R"("g": { "type": "groups/soft.json", "in": "part:G", "enabled": false },)", "g:less"),
+              pixels("", "part:G"));
+}
+
+// What only it would have used is in reserve.
+TEST_F(Groups, ThatAreNotEnabledLeaveNobodyUnused) {
+    graph(kSource + std::string(R"("spare": { "type": "gaussian", "in": "c", "sigma": 1 },
+        "g": { "type": "groups/soft.json", "in": "part", "mask": "spare:R", "enabled": false },
+        "out": { "type": "write", "in": "g", "file": "a.exr" })"));
+    EXPECT_EQ(keyline({"check", "graph.json"}).err, "");
+}
+
+// Groups that have a name: those that come with Keyline, and a show's.
+class NamedGroups : public Groups {
+protected:
+    NamedGroups() {
+        write("show/soft.json", version(3, 3));
+        write("show/soft@2.json", version(2, 2));
+        write("site/soft.json", version(4, 4));
+        write("site/canny.json", version(7, 1));
+        write("site/gaussian.json", version(1, 1));
+        write("site/graph.json", R"({ "keyline": 1, "nodes": {} })");
+    }
+
+    static std::string version(int version, int sigma) {
+        return fmt::format(R"({{ "keyline": 1, "version": {}, "inputs": {{ "in": {{}} }},
+            "outputs": {{ "out": "b" }},
+            "nodes": {{ "b": {{ "type": "gaussian", "in": "in", "sigma": {} }} }} }})",
+                           version, sigma);
+    }
+
+    Outcome check(const std::string& type, const std::string& path = "show:site") const {
+        graph(kSource + fmt::format(R"("g": {{ "type": "{}", "in": "part" }},
+                                       "out": {{ "type": "write", "in": "g", "file": "a.exr" }})",
+                                    type));
+        return keyline({"check", "graph.json", "--streams"}, {.environment = {"KEYLINE_PATH=" + path}});
+    }
+
+    // The sigma of the group that a type means.
+    std::string told(const std::string& type, const std::string& path = "show:site") const {
+        graph(kSource + fmt::format(R"("g": {{ "type": "{}", "in": "part" }},
+                                       "out": {{ "type": "write", "in": "g", "file": "a.exr" }})",
+                                    type));
+        const Outcome run = keyline({"render", "graph.json", "--no-provenance", "--progress", "none"},
+                                    {.environment = {"KEYLINE_PATH=" + path}});
+        EXPECT_EQ(run.status, 0) << run.err;
+        return read(folder() / "a.exr");
+    }
+};
+
+TEST_F(NamedGroups, AreFoundInThePathBeforeThoseThatAreShipped) {
+    EXPECT_EQ(told("soft"), told("show/soft.json"));
+    EXPECT_EQ(told("soft", "site:show"), told("site/soft.json"));
+    EXPECT_EQ(told("canny"), told("site/canny.json"));
+    EXPECT_EQ(told("gaussian"), told("gaussian", "")) << "a node's name is the node's";
+}
+
+TEST_F(NamedGroups, HaveVersions) {
+    EXPECT_EQ(told("soft@2"), told("show/soft@2.json"));
+    EXPECT_EQ(told("soft@3"), told("show/soft.json"));
+    EXPECT_EQ(told("soft@4"), told("site/soft.json"));
+    EXPECT_EQ(told("gaussian@1"), told("site/gaussian.json"));
+    EXPECT_THAT(check("soft@5").err, HasSubstr("no node type 'soft@5'; 'soft' is version 3"));
+}
+
+TEST_F(NamedGroups, ComeWithKeyline) {
+    const fs::path shipped = plates().parent_path() / "groups" / "normal_lines.json";
+    graph(kSource + std::string(R"("g": { "type": "normal_lines", "normal": "part" },
+                                   "out": { "type": "write", "in": "g", "file": "a.exr" })"));
+    EXPECT_EQ(keyline({"check", "graph.json"}).err, "");
+    EXPECT_EQ(keyline({"nodes", "normal_lines"}).out, keyline({"nodes", shipped.string()}).out);
+    graph(kSource + std::string(R"("g": { "type": "groups/normal_lines.json", "normal": "part" },
+                                   "out": { "type": "write", "in": "g", "file": "a.exr" })"));
+    fs::remove_all(folder() / "groups");
+    EXPECT_EQ(keyline({"check", "graph.json"}).err, "") << "as a file too";
+}
+
+TEST_F(NamedGroups, AreListedAndSuggested) {
+    const RunOptions with_path{.environment = {"KEYLINE_PATH=show:site"}};
+    const std::string list = keyline({"nodes"}, with_path).out;
+    EXPECT_THAT(list, HasSubstr("\nGroups\n  canny"));
+    EXPECT_THAT(list, HasSubstr("\n  soft@2"));
+    EXPECT_THAT(list, Not(HasSubstr("\n  graph"))) << "it has no outputs";
+    EXPECT_THAT(keyline({"schema"}, with_path).out, HasSubstr("\"soft@2\""));
+    EXPECT_THAT(check("sofft").err, HasSubstr("no node type 'sofft'; did you mean 'soft'?"));
+    write("mine.json", version(1, 1));
+    EXPECT_THAT(check("mine").err, HasSubstr("for the file beside this one write \"mine.json\""));
+}
+
+TEST_F(NamedGroups, ThatAreBrokenAreTold) {
+    write("show/broken.json", "{ \"keyline\": 1,");
+    EXPECT_THAT(check("broken").err, HasSubstr("show/broken.json:1:"));
 }
 
 }  // namespace
