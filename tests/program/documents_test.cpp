@@ -73,7 +73,7 @@ protected:
         fs::create_symlink(plates(), folder() / "graphs" / "plates");
         fs::create_symlink(plates().parent_path() / "groups", folder() / "graphs" / "groups");
         for (const auto& entry : fs::directory_iterator(plates().parent_path()))
-            if (entry.path().extension() == ".json")
+            if (entry.path().extension() == ".json" || entry.path().extension() == ".csv")
                 fs::copy(entry.path(), folder() / "graphs" / entry.path().filename());
     }
 
@@ -100,6 +100,20 @@ TEST_F(Documents, TheReadmesGraphAndCommandsWork) {
 
 TEST_F(Documents, TheCookbooksCommandsWork) {
     expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "cookbook.md"));
+}
+
+TEST_F(Documents, TheCookbooksGraphsAreSoundAndLaidOut) {
+    std::size_t graphs = 0;
+    for (const Block& block : blocks_in(read(fs::path(KEYLINE_DOCS) / "cookbook.md"))) {
+        if (!block.text.starts_with("{\n  \"keyline\"")) continue;
+        write("graphs/task.json", block.text);
+        const Outcome run = keyline({"check", "graphs/task.json"});
+        EXPECT_EQ(run.status, 0) << run.err << block.text;
+        EXPECT_EQ(run.err.find("warning:"), std::string::npos) << run.err << block.text;
+        EXPECT_EQ(keyline({"fmt", "--check", "graphs/task.json"}).status, 0) << block.text;
+        ++graphs;
+    }
+    EXPECT_GE(graphs, 13U);
 }
 
 // Its graph finds the lines that its commands then measure.

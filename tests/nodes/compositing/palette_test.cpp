@@ -82,7 +82,12 @@ protected:
     std::string fault(const std::string& text, const std::string& name = "t.csv") const {
         const std::string told = error_of("palette", table(name, text), objects());
         const std::size_t at = told.find(name);
-        return at == std::string::npos ? told : told.substr(at);
+        if (at == std::string::npos) return told;
+        std::string out = told.substr(at, told.find('\n', at) - at);
+        const std::string_view node = "node 'node' (palette): ";
+        if (const std::size_t title = out.find(node); title != std::string::npos)
+            out.erase(title, node.size());
+        return out;
     }
 
 private:
@@ -122,7 +127,7 @@ TEST_F(PaletteTable, FaultsStandAtTheirPlacesInTheFile) {
         fault("name,color\n"),
         "t.csv:1:1: error: a table is names with a colour or a number each; as { \"hair*\": \"#302018\" }");
     EXPECT_EQ(fault("{\"ball\": 1,}", "t.json"),
-              "t.json:1:12: error: expected a key in double quotes, found '}'");
+              "t.json:1:11: error: there is a ',' too many before the '}'");
     EXPECT_NE(fault("ball,1", "t.xls").find("is no table; a table is a .json or a .csv"), std::string::npos);
 }
 
