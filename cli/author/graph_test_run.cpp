@@ -41,9 +41,9 @@ Value number_value(double number, const Place& place) {
     return out;
 }
 
-Value object_of(std::vector<std::pair<std::string, Value>> members, const Place& place) {
+Value object_of(const std::vector<std::pair<std::string, Value>>& members, const Place& place) {
     Value out = value_at(place, Kind::kObject);
-    for (auto& [key, value] : members) out.members.push_back({key, place, std::move(value)});
+    for (const auto& [key, value] : members) out.members.push_back({key, place, value});
     return out;
 }
 
