@@ -66,7 +66,7 @@ std::string sections(const CLI::App& command, const std::string& above) {
 }  // namespace
 
 std::string commands_markdown(const CLI::App& program) {
-    const std::string name = program.get_name();
+    const std::string& name = program.get_name();
     std::string out =
         fmt::format("# Synopsis\n\n`{}`\n\n{}\n\n", usage(program, name), program.get_description());
     for (const CLI::Option* o : listed_options(program, false))
