@@ -52,9 +52,11 @@ const std::vector<Kind> kKinds = {{"bmp", "RGB"},
                                   {"webp", "RGB"},
                                   {"zfile", "Y"}};
 
+constexpr int kWidth = 37, kHeight = 33;  // no less than JPEG 2000 takes
+
 SinkSpec spec_of(const Kind& kind) {
     SinkSpec spec;
-    spec.display_window = spec.data_window = {0, 0, 37, 29};
+    spec.display_window = spec.data_window = {0, 0, kWidth, kHeight};
     for (const char c : kind.channels) spec.channels.push_back({std::string(1, c), SampleType::kFloat});
     spec.depth = kind.depth;
     spec.compression = kind.compression;
@@ -72,10 +74,10 @@ void write(const std::filesystem::path& file, const Kind& kind) {
         planes.push_back(pixels.emplace_back(c.type, sink->region()).plane());
     int n = 0;
     for (const Plane& plane : planes)
-        for (int y = 0; y < 29; ++y)
-            for (int x = 0; x < 37; ++x)
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x)
                 reinterpret_cast<float*>(plane.at(0, y))[x] = static_cast<float>(n++ * 37 % 100) / 100;
-    for (int i = 0; i * sink->chunk_height() < 29; ++i) sink->commit(sink->encode(i, planes));
+    for (int i = 0; i * sink->chunk_height() < kHeight; ++i) sink->commit(sink->encode(i, planes));
     sink->finish();
 }
 
