@@ -30,15 +30,19 @@ row() {
 }
 
 # graph, and what to look for
-hand() {
+still() {
   echo "## $1"
   echo
   echo "$(about "$1"). [graphs/$1.json](../graphs/$1.json)"
   echo
   echo "![$1](images/$1.webp)"
   echo
-  echo "$2 Six frames of a moving shot, with lines that \`steady\` holds together:"
+  echo "$2"
   echo
+}
+
+hand() {
+  still "$1" "$2 Six frames of a moving shot, with lines that \`steady\` holds together:"
   echo "![$1 in motion](images/$1-frames.webp)"
   echo
 }
@@ -58,9 +62,9 @@ for graph in garden poster; do
   build/release/bin/keyline render graphs/$graph.json --frames 12 --progress none --no-provenance \
     --var out="$PWD/$images/$graph.png"
 done
-for hand in night cleanup brush pencil technical comic; do
-  build/release/bin/keyline render "graphs/$hand.json" --frames 12 --progress none --no-provenance \
-    --var out="$PWD/$images/$hand.webp"
+for graph in night cleanup brush pencil technical comic; do
+  build/release/bin/keyline render "graphs/$graph.json" --frames 12 --progress none --no-provenance \
+    --var out="$PWD/$images/$graph.webp"
 done
 render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
 
@@ -82,7 +86,7 @@ render toon --var look="$PWD/$images/toon.png" --var out="$scratch/toon.exr"
   echo
   echo "![poster](images/poster.png)"
   echo
-  hand night "The tones, the lines and the rim of moonlight are groups: a node each."
+  still night "The tones, the lines and the rim of moonlight are groups: a node each."
   hand cleanup "Every line closed and of one width, as painters want it; blue is where the shadow will end."
   hand brush "The side away from the sun swells, ends lift, and what is painted dark is filled."
   hand pencil "Each line twice, by a hand that looks for it; the hatching does not move when the lines do."
