@@ -29,13 +29,14 @@ void for_each_vertex(List& strokes, const Visit& visit) {
         for (auto& v : s.vertices) visit(v, i++);
 }
 
+// A vertex whose way was not known stands nowhere, at NaN, which min and max pass over.
 Rect bounds_of(const Stroke& s) {
-    double x0 = s.vertices[0].x, x1 = x0, y0 = s.vertices[0].y, y1 = y0;
+    static constexpr double kFar = 1e9;
+    double x0 = kFar, x1 = -kFar, y0 = kFar, y1 = -kFar;
     for (const StrokeVertex& v : s.vertices) {
         x0 = std::min(x0, v.x), x1 = std::max(x1, v.x);
         y0 = std::min(y0, v.y), y1 = std::max(y1, v.y);
     }
-    static constexpr double kFar = 1e9;
     const auto whole = [](double d) { return static_cast<int>(std::floor(std::clamp(d, -kFar, kFar))); };
     const double reach = kInside.back() + 1;
     return {whole(x0 - reach), whole(y0 - reach), whole(x1 + reach) + 1, whole(y1 + reach) + 1};
