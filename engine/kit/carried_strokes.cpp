@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/carried_strokes.h"
 
+#include "engine/kit/stroke_way.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,14 +48,10 @@ struct Direction {
     double x = 0, y = 0;
 };
 
-// To the right of the way from the vertex before to the one after.
+// One pixel to the right of the stroke's way; nowhere where it has none.
 Direction inwards(const Stroke& s, std::size_t i) {
-    const std::vector<StrokeVertex>& v = s.vertices;
-    const std::size_t last = v.size() - 1;
-    const StrokeVertex& before = v[i > 0 ? i - 1 : s.closed ? last : 0];
-    const StrokeVertex& after = v[i < last ? i + 1 : s.closed ? 0 : last];
-    const double x = after.x - before.x, y = after.y - before.y, length = std::sqrt(x * x + y * y);
-    return length > 0 ? Direction{-y / length, x / length} : Direction{};
+    const StrokeWay way = way_at(s, i);
+    return way.length > 0 ? Direction{-way.y / way.length, way.x / way.length} : Direction{};
 }
 
 // Motion changes along a surface, so it is carried on to the line where the surface goes on that far.

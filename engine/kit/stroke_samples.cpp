@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/stroke_samples.h"
 
+#include "engine/kit/stroke_way.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -16,16 +18,12 @@ struct Pixel {
     int x = 0, y = 0;
 };
 
-// On the right of the way from the vertex before to the one after.
+// To the right of the stroke's way.
 Pixel beside(const Stroke& s, std::size_t i) {
-    const std::vector<StrokeVertex>& v = s.vertices;
-    const std::size_t last = v.size() - 1;
-    const StrokeVertex& before = v[i > 0 ? i - 1 : s.closed ? last : 0];
-    const StrokeVertex& after = v[i < last ? i + 1 : s.closed ? 0 : last];
-    const double x = after.x - before.x, y = after.y - before.y, length = std::sqrt(x * x + y * y);
-    const double aside = length > 0 ? kBeside / length : 0;
-    return {static_cast<int>(std::floor(v[i].x - aside * y)),
-            static_cast<int>(std::floor(v[i].y + aside * x))};
+    const StrokeWay way = way_at(s, i);
+    const double aside = way.length > 0 ? kBeside / way.length : 0;
+    return {static_cast<int>(std::floor(s.vertices[i].x - aside * way.y)),
+            static_cast<int>(std::floor(s.vertices[i].y + aside * way.x))};
 }
 
 }  // namespace

@@ -319,8 +319,8 @@ private:
     const Graph& graph_;
     RenderOptions options_;
     RenderObserver& observer_;
+    const std::atomic<bool>* cancel_ = nullptr;  // while it runs
     // What earlier frames left.  A frame adds to it before the next one is begun.
-    const std::atomic<bool>* cancel_ = nullptr;
     const std::shared_ptr<std::vector<Carried>> held_ = std::make_shared<std::vector<Carried>>();
     Ahead ahead_;
     const Origins origins_;
