@@ -3,6 +3,7 @@
 #include "engine/kit/crowded_strokes.h"
 
 #include "engine/kit/piece_index.h"
+#include "engine/kit/stroke_way.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,12 +64,10 @@ private:
         return apart < kItself * v.width;
     }
 
+    // Times the length of (dx, dy).
     static double way_cosine(const Stroke& s, std::size_t i, double dx, double dy) {
-        const std::size_t last = s.vertices.size() - 1;
-        const StrokeVertex& a = s.vertices[i > 0 ? i - 1 : s.closed ? last : 0];
-        const StrokeVertex& b = s.vertices[i < last ? i + 1 : s.closed ? 0 : last];
-        const double x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
-        return length > 0 ? (x * dx + y * dy) / length : 0;
+        const StrokeWay way = way_at(s, i);
+        return way.length > 0 ? (way.x * dx + way.y * dy) / way.length : 0;
     }
 
     const std::vector<Stroke>& strokes_;
@@ -76,19 +75,6 @@ private:
     double apart_, widest_ = 0;
     PieceIndex pieces_;
 };
-
-double mean_around(const std::vector<double>& shares, bool closed, std::ptrdiff_t i) {
-    const auto n = static_cast<std::ptrdiff_t>(shares.size());
-    double sum = 0;
-    int count = 0;
-    for (std::ptrdiff_t k = -kEven; k <= kEven; ++k) {
-        const std::ptrdiff_t j = closed ? ((i + k) % n + n) % n : i + k;
-        if (j < 0 || j >= n) continue;
-        sum += shares[static_cast<std::size_t>(j)];
-        ++count;
-    }
-    return sum / count;
-}
 
 }  // namespace
 
@@ -100,8 +86,7 @@ void give_way(Strokes& strokes, double apart) {
         shares.clear();
         for (uint32_t i = 0; i < before[s].vertices.size(); ++i) shares.push_back(crowd.share_at(s, i));
         for (std::size_t i = 0; i < shares.size(); ++i)
-            strokes.strokes[s].vertices[i].width *=
-                mean_around(shares, before[s].closed, static_cast<std::ptrdiff_t>(i));
+            strokes.strokes[s].vertices[i].width *= mean_along(shares, before[s].closed, i, kEven, false);
     }
 }
 

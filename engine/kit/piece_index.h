@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/kit/by_place.h"
 #include "engine/kit/strokes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 // The pieces of strokes between their vertices, by place.
@@ -40,39 +39,17 @@ public:
     // visit(piece) of all that may be within `reach` of a place, in an order that only depends on them.
     template <class Visit>
     void near(double x, double y, double reach, const Visit& visit) const {
-        const double far = reach + longest_, cells = 2 * far / kCell + 1;
-        if (cells * cells > static_cast<double>(short_.size())) {
-            for (const Piece& piece : short_) visit(piece);
-        } else {
-            for (int64_t row = cell_of(y - far); row <= cell_of(y + far); ++row)
-                for (int64_t column = cell_of(x - far); column <= cell_of(x + far); ++column)
-                    if (const auto it = cells_.find(key(column, row)); it != cells_.end())
-                        for (const std::size_t i : it->second) visit(short_[i]);
-        }
-        for (const Piece& piece : long_) visit(piece);
+        pieces_.any_near(x, y, reach, [&](const Piece& piece) { return visit(piece), false; });
     }
 
 private:
-    static constexpr double kCell = 4, kLong = 16;  // pixels
-
-    static int64_t cell_of(double v) { return static_cast<int64_t>(std::floor(v / kCell)); }
-    static uint64_t key(int64_t column, int64_t row) {
-        return uint64_t{static_cast<uint32_t>(row)} << 32 | static_cast<uint32_t>(column);
-    }
-
     void add(const Piece& piece) {
         const StrokeVertex &a = from(piece), &b = to(piece);
-        const double length = std::fabs(b.x - a.x) + std::fabs(b.y - a.y);
-        if (length > kLong) return long_.push_back(piece);
-        longest_ = std::max(longest_, length);
-        cells_[key(cell_of(a.x), cell_of(a.y))].push_back(short_.size());
-        short_.push_back(piece);
+        pieces_.add(a.x, a.y, std::fabs(b.x - a.x) + std::fabs(b.y - a.y), piece);
     }
 
     const std::vector<Stroke>& strokes_;
-    std::vector<Piece> short_, long_;  // long: what a search of the cells around can't reach
-    std::unordered_map<uint64_t, std::vector<std::size_t>> cells_;  // the short ones by where they begin
-    double longest_ = 0;                                            // of those
+    ByPlace<Piece> pieces_;
 };
 
 }  // namespace keyline

@@ -3,6 +3,7 @@
 #include "engine/kit/steady_strokes.h"
 
 #include "engine/kit/piece_index.h"
+#include "engine/kit/stroke_way.h"
 
 #include <algorithm>
 #include <array>
@@ -27,11 +28,8 @@ struct Way {
 };
 
 Way direction(const std::vector<StrokeVertex>& v, bool closed, std::size_t i) {
-    const std::size_t last = v.size() - 1;
-    const StrokeVertex& a = v[i > 0 ? i - 1 : closed ? last : 0];
-    const StrokeVertex& b = v[i < last ? i + 1 : closed ? 0 : last];
-    const double x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
-    return length > 0 ? Way{x / length, y / length} : Way{};
+    const StrokeWay way = way_at(v, closed, i);
+    return way.length > 0 ? Way{way.x / way.length, way.y / way.length} : Way{};
 }
 
 // What is looked for: a line of an owner, across the way at a place.
@@ -109,23 +107,12 @@ struct Verdict {
     double presence = 0;
 };
 
-// The mean of what is near along a stroke, the nearer the more where `pointed`.
 template <class Member>
 void even_out(std::vector<Verdict>& verdicts, bool closed, bool pointed, Member member) {
-    const auto n = static_cast<std::ptrdiff_t>(verdicts.size());
     std::vector<double> before;
     for (const Verdict& v : verdicts) before.push_back(v.*member);
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-        double sum = 0, weights = 0;
-        for (std::ptrdiff_t k = -kEven; k <= kEven; ++k) {
-            const std::ptrdiff_t j = closed ? ((i + k) % n + n) % n : i + k;
-            if (j < 0 || j >= n) continue;
-            const double weight = pointed ? static_cast<double>(kEven + 1 - std::abs(k)) : 1;
-            sum += weight * before[static_cast<std::size_t>(j)];
-            weights += weight;
-        }
-        verdicts[static_cast<std::size_t>(i)].*member = sum / weights;
-    }
+    for (std::size_t i = 0; i < verdicts.size(); ++i)
+        verdicts[i].*member = mean_along(before, closed, i, kEven, pointed);
 }
 
 double drawn_share(double presence) { return std::clamp((presence - kGone) / (kWhole - kGone), 0.0, 1.0); }

@@ -3,6 +3,7 @@
 #include "engine/kit/stroke_doubles.h"
 
 #include "engine/kit/stroke_index.h"
+#include "engine/kit/stroke_way.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +16,10 @@ namespace {
 constexpr std::size_t kCrumb = 3;  // vertices between two doubles that are no line of their own
 
 StrokeIndex::Along along_at(const Stroke& s, std::size_t i) {
-    const std::size_t n = s.vertices.size();
-    const StrokeVertex& a = s.vertices[i > 0 ? i - 1 : s.closed ? n - 1 : 0];
-    const StrokeVertex& b = s.vertices[i + 1 < n ? i + 1 : s.closed ? 0 : i];
-    const double x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
-    if (!(length > 0)) return {s.vertices[i].x, s.vertices[i].y, 0, 0, s.kind};
-    return {s.vertices[i].x, s.vertices[i].y, x / length, y / length, s.kind};
+    const StrokeVertex& v = s.vertices[i];
+    const StrokeWay way = way_at(s, i);
+    if (!(way.length > 0)) return {v.x, v.y, 0, 0, s.kind};
+    return {v.x, v.y, way.x / way.length, way.y / way.length, s.kind};
 }
 
 // An end that only touches another line is no double.

@@ -10,18 +10,10 @@ namespace keyline {
 
 namespace {
 
-constexpr double kCell = 4;       // pixels
-constexpr double kLong = 16;      // pixels: what a search of the cells around can reach
 constexpr double kSameWay = 0.8;  // cosine
 constexpr double kBend = 0.5;  // what is beyond a piece's end for each pixel aside, in bends up to 53 degrees
 
-int64_t cell_of(double v) { return static_cast<int64_t>(std::floor(v / kCell)); }
-
 }  // namespace
-
-uint64_t StrokeIndex::cell(int64_t column, int64_t row) {
-    return uint64_t{static_cast<uint32_t>(row)} << 32 | static_cast<uint32_t>(column);
-}
 
 void StrokeIndex::add(const Stroke& stroke) {
     const std::vector<StrokeVertex>& v = stroke.vertices;
@@ -35,34 +27,19 @@ void StrokeIndex::add(const Stroke& stroke) {
                           !stroke.closed && i == 0,
                           !stroke.closed && i + 2 == v.size(),
                           strokes_};
-        const double length = std::fabs(piece.dx) + std::fabs(piece.dy);
-        if (length <= kLong) longest_ = std::max(longest_, length);
-        (length > kLong ? long_ : pieces_[cell(cell_of(piece.x), cell_of(piece.y))]).push_back(piece);
-        ++count_;
+        pieces_.add(piece.x, piece.y, std::fabs(piece.dx) + std::fabs(piece.dy), piece);
     }
     ++strokes_;
 }
 
-template <class Visit>
-bool StrokeIndex::any_near(double x, double y, double reach, const Visit& visit) const {
-    for (const Piece& piece : long_)
-        if (visit(piece)) return true;
-    const double far = reach + longest_;
-    for (int64_t row = cell_of(y - far); row <= cell_of(y + far); ++row)
-        for (int64_t column = cell_of(x - far); column <= cell_of(x + far); ++column)
-            if (const auto it = pieces_.find(cell(column, row)); it != pieces_.end())
-                for (const Piece& piece : it->second)
-                    if (visit(piece)) return true;
-    return false;
-}
-
 bool StrokeIndex::has(const Along& along) const {
-    return any_near(along.x, along.y, within_, [&](const Piece& piece) { return is_beside(piece, along); });
+    return pieces_.any_near(along.x, along.y, within_,
+                            [&](const Piece& piece) { return is_beside(piece, along); });
 }
 
 double StrokeIndex::ahead(const Along& from, double reach, int except) const {
     double least = std::numeric_limits<double>::infinity();
-    any_near(from.x, from.y, reach, [&](const Piece& piece) {
+    pieces_.any_near(from.x, from.y, reach, [&](const Piece& piece) {
         const double turn = from.tx * piece.dy - from.ty * piece.dx;
         if (piece.stroke == except || turn == 0) return false;
         const double x = piece.x - from.x, y = piece.y - from.y;

@@ -3,11 +3,10 @@
 #pragma once
 
 #include "engine/base/api.h"
+#include "engine/kit/by_place.h"
 #include "engine/kit/strokes.h"
 
-#include <cstdint>
-#include <unordered_map>
-#include <vector>
+#include <cstddef>
 
 // Strokes by place: whether something runs along one of them.
 
@@ -19,7 +18,7 @@ public:
     explicit StrokeIndex(double within) : within_(within) {}
 
     void add(const Stroke& stroke);
-    std::size_t bytes() const { return count_ * sizeof(Piece); }  // about
+    std::size_t bytes() const { return pieces_.size() * sizeof(Piece); }  // about
 
     struct Along {
         double x = 0, y = 0, tx = 0, ty = 0;  // a place and a direction of length 1
@@ -44,17 +43,10 @@ private:
         int stroke;
         friend bool operator==(const Piece&, const Piece&) = default;
     };
-    static uint64_t cell(int64_t column, int64_t row);
     bool is_beside(const Piece& piece, const Along& along) const;
-    // visit(piece) of all that may be within `reach` of a place, until it returns true; whether it did.
-    template <class Visit>
-    bool any_near(double x, double y, double reach, const Visit& visit) const;
 
     double within_;
-    std::unordered_map<uint64_t, std::vector<Piece>> pieces_;  // by the cell that they begin in
-    std::vector<Piece> long_;                                  // that reach far from there
-    double longest_ = 0;                                       // of the others
-    std::size_t count_ = 0;
+    ByPlace<Piece> pieces_;
     int strokes_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/noise.h"
+#include "engine/kit/stroke_way.h"
 #include "engine/kit/strokes.h"
 #include "engine/node/node_adaptor.h"
 #include "engine/simd/elementary.h"
@@ -114,18 +115,15 @@ private:
 
     void move(Stroke& s, double unit) const {
         const std::vector<StrokeVertex> before = s.vertices;
-        const std::size_t n = before.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const StrokeVertex& a = before[i > 0 ? i - 1 : s.closed ? n - 1 : 0];
-            const StrokeVertex& b = before[i + 1 < n ? i + 1 : s.closed ? 0 : n - 1];
-            const double x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const StrokeWay way = way_at(before, s.closed, i);
             const Place place = place_of(s, before[i], unit);
             StrokeVertex& v = s.vertices[i];
             v.width *= 1 + params.breathe * noise_at(place, 1);
-            if (!(length > 0)) continue;
+            if (!(way.length > 0)) continue;
             const double aside = params.amount * unit * noise_at(place, 0);
-            v.x -= aside * y / length;
-            v.y += aside * x / length;
+            v.x -= aside * way.y / way.length;
+            v.y += aside * way.x / way.length;
         }
     }
 };
