@@ -13,7 +13,7 @@ namespace KEYLINE_API keyline {
 
 struct SvgStyle {
     enum class Layers { kKind, kObject };
-    enum class Width { kOutline, kStroke };
+    enum class Width { kOutline, kStroke, kSplit };
 
     Layers layers = Layers::kKind;
     Width width = Width::kOutline;

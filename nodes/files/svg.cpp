@@ -16,7 +16,10 @@ constexpr auto words(SvgStyle::Width) {
     using enum SvgStyle::Width;
     return std::array{
         Word<SvgStyle::Width>{"outline", kOutline, "filled shapes, which show it as it is along the stroke"},
-        Word<SvgStyle::Width>{"stroke", kStroke, "paths with the stroke's mean width, easy to change"}};
+        Word<SvgStyle::Width>{"stroke", kStroke, "paths with the stroke's mean width, easy to change"},
+        Word<SvgStyle::Width>{"split", kSplit,
+                              "paths that are cut where the width changes, for programs in which a path has "
+                              "one: Blender's Grease Pencil"}};
 }
 
 namespace {

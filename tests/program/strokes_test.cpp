@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <regex>
 
 // Strokes in files: to scripts and back.
 
@@ -106,11 +107,20 @@ assert root.tag == svg + "svg", root.tag
 print(root.get("viewBox"))
 for layer in root.findall(svg + "g"):
     assert layer.get(inkscape + "groupmode") == "layer"
-    print(layer.get(inkscape + "label"), *(f'{p.get("id")} of "{p.get("data-owner")}"' for p in layer))
+    print(layer.get("id"), layer.get(inkscape + "label"), *(f'{p.get("id")} of "{p.get("data-owner")}"' for p in layer))
 )";
 
 class SvgFiles : public StrokeFiles {
 protected:
+    // What a pattern's group matches in a text, one after the other.
+    static std::vector<std::string> found(const std::string& text, const std::string& pattern) {
+        const std::regex regex(pattern);
+        std::vector<std::string> out;
+        for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
+            out.push_back((*it)[1]);
+        return out;
+    }
+
     // Writes the lines as SVG and says what is in it.
     std::string look_at(const std::string& parameters) const {
         graph(fmt::format(R"("in":  {{ "type": "strokes_read", "file": "three.json" }},
@@ -129,9 +139,9 @@ protected:
 TEST_F(SvgFiles, HaveLayersByKindWithTheFirstOnTop) {
     write("three.json", kThree);
     EXPECT_EQ(look_at(""), R"(0 0 40 30
-shadow stroke2 of ""
-crease stroke1 of "cup"
-outline stroke0 of "cup"
+shadow shadow stroke2 of ""
+crease crease stroke1 of "cup"
+outline outline stroke0 of "cup"
 )");
     EXPECT_THAT(read(folder() / "three.svg"), HasSubstr("fill-rule=\"nonzero\""));
 }
@@ -142,8 +152,8 @@ TEST_F(SvgFiles, HaveLayersByObjectWhateverItsName) {
         three.replace(at, 3, R"(c<u>&\"p)");
     write("three.json", three);
     EXPECT_EQ(look_at(R"(, "layers": "object")"), R"(0 0 40 30
-nobody stroke2 of ""
-c<u>&"p stroke1 of "c<u>&"p" stroke0 of "c<u>&"p"
+nobody nobody stroke2 of ""
+c_u___p c<u>&"p stroke1 of "c<u>&"p" stroke0 of "c<u>&"p"
 )");
 }
 
@@ -153,6 +163,49 @@ TEST_F(SvgFiles, HavePathsWithAWidth) {
     const std::string svg = read(folder() / "three.svg");
     EXPECT_THAT(svg, HasSubstr("stroke=\"#804020\" stroke-opacity=\"1\" stroke-width=\"1.75\""));
     EXPECT_THAT(svg, HasSubstr("d=\"M20,5 C21.67,5.33 23.33,5.67 25,6\""));
+}
+
+TEST_F(SvgFiles, HaveALayerForEachOfNamesThatAreAlike) {
+    write("three.json", R"({
+"strokes": 1, "display": [0, 0, 40, 30], "window": [0, 0, 40, 30],
+"objects": { "0000000a": "a b", "0000000b": "a/b", "0000000c": "stroke1", "0000000d": "3" },
+"lines": [
+  { "kind": "outline", "near": "a b", "points": [[5, 5], [10, 5]] },
+  { "kind": "outline", "near": "a/b", "points": [[5, 5], [10, 5]] },
+  { "kind": "outline", "near": "stroke1", "points": [[5, 5], [10, 5]] },
+  { "kind": "outline", "near": "3", "points": [[5, 5], [10, 5]] }
+]
+})");
+    EXPECT_EQ(look_at(R"(, "layers": "object")"), R"(0 0 40 30
+_3 3 stroke3 of "3"
+_stroke1 stroke1 stroke2 of "stroke1"
+a_b a/b stroke1 of "a/b"
+_a_b a b stroke0 of "a b"
+)") << "as ids no two are the same, and all are names as XML has them";
+}
+
+TEST_F(SvgFiles, ArePathsOfOneWidthEachWhereWidthsAreSplit) {
+    write("three.json", R"({
+"strokes": 1, "display": [0, 0, 40, 30], "window": [0, 0, 40, 30],
+"lines": [
+  { "kind": "crease", "points": [[0, 5], [10, 5], [20, 5], [30, 5]], "width": [2, 2, 4, 4] },
+  { "kind": "crease", "points": [[5, 9], [25, 9]], "width": 0 },
+  { "kind": "crease", "points": [[5, 10], [25, 10], [25, 20]], "closed": true, "width": [2, 2.2, 2] }
+]
+})");
+    EXPECT_EQ(look_at(R"(, "width": "split")"), "0 0 40 30\ncrease crease stroke2 of \"\" stroke0 of \"\"\n");
+    const std::string svg = read(folder() / "three.svg");
+    const std::vector<std::string> widths = found(svg, "stroke-width=.([0-9.]*)"),
+                                   begins = found(svg, "d=.M([^ ]*)"),
+                                   ends = found(svg, "([0-9.]+,[0-9.]+)./>");
+    EXPECT_EQ(widths.front(), "2.07") << "the closed one is even enough";
+    EXPECT_THAT(svg, HasSubstr(" Z\"/>"));
+    EXPECT_THAT(widths, testing::SizeIs(testing::AllOf(testing::Ge(4), testing::Le(6))));
+    for (std::size_t i = 2; i < widths.size(); ++i) {
+        EXPECT_EQ(begins[i], ends[i - 2]) << "where the one before ends";
+        EXPECT_GT(std::stod(widths[i]), std::stod(widths[i - 1]));
+        EXPECT_LT(std::stod(widths[i]), 1.35 * std::stod(widths[i - 1]));
+    }
 }
 
 }  // namespace
