@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/sequences.h"
 
-#include "engine/base/error.h"
+#include "engine/base/absent_input.h"
 #include "engine/params/file_name.h"
+#include "engine/params/missing_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -55,12 +56,11 @@ std::vector<int> missing_of(const std::set<int>& frames) {
 
 std::vector<std::string> files_of(const std::string& name) {
     std::error_code error;
-    if (std::filesystem::exists(name, error) || FileName::fault(name)) return {name};
+    if (std::filesystem::exists(name, error) || error || FileName::fault(name)) return {name};
     const FileName pattern(name);
-    if (!pattern.has_frame()) return {name};
     std::vector<std::string> out;
     for (const int frame : pattern.frames_on_disk()) out.push_back(pattern.at(frame).string());
-    if (out.empty()) fail(ErrorKind::kInput, fmt::format("{}: no frame of it is on disk", in_quotes(name)));
+    if (out.empty()) throw AbsentInput(name, hint_for_missing(pattern, 1));
     return out;
 }
 

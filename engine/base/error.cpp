@@ -13,7 +13,8 @@ namespace keyline {
 
 namespace {
 
-constexpr std::size_t kLongestQuote = 60;  // characters
+constexpr std::size_t kLongestQuote = 60;   // characters
+constexpr std::size_t kLeastBeginning = 4;  // characters of a word that another may begin with
 
 // Insertions, deletions, substitutions and swaps of neighbours that make `b` of `a` (optimal string
 // alignment), by rows.
@@ -43,6 +44,15 @@ std::string joined(const Error& e, const char* label) {
     out += e.what;
     if (!e.hint.empty()) out += "; " + e.hint;
     return escaped(out);
+}
+
+// The one candidate that begins with a word; empty where none does, or several.
+std::string completed(std::string_view word, const std::vector<std::string>& candidates) {
+    const auto begins = [&](const std::string& candidate) { return candidate.starts_with(word); };
+    const auto first = std::ranges::find_if(candidates, begins);
+    if (first == candidates.end() || std::find_if(first + 1, candidates.end(), begins) != candidates.end())
+        return {};
+    return *first;
 }
 
 }  // namespace
@@ -139,6 +149,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
             best_distance = distance;
         }
     }
+    if (best.empty() && word.size() >= kLeastBeginning) best = completed(word, candidates);
     return best.empty() ? "" : fmt::format("did you mean {}?", in_quotes(best));
 }
 

@@ -38,7 +38,8 @@ void apply_set(const OptionValue& o, std::vector<GraphNode>& nodes, Diagnostics&
     const std::string id = o.target.substr(0, dot);
     const Place place{o.option, 0, 0};
     if (dot == std::string::npos || dot + 1 == o.target.size())
-        return graph_error(diagnostics, place, "it must be NODE.NAME=VALUE");
+        return graph_error(diagnostics, place, "it must be NODE.NAME=VALUE",
+                           dot == std::string::npos ? "a variable is given with --var" : "");
     const auto node = std::ranges::find(nodes, id, &GraphNode::id);
     if (node == nodes.end())
         return graph_error(diagnostics, place, "there is no node " + in_quotes(id),

@@ -83,6 +83,11 @@ private:
     }
 
     std::string near_node(const std::string& id) const {
+        // As other programs part a node from its layer.
+        const auto mark = id.find_first_of("./");
+        if (mark != std::string::npos && std::ranges::count(ids_of(nodes_), id.substr(0, mark)) > 0)
+            return fmt::format("a layer is written {}",
+                               in_quotes(id.substr(0, mark) + ':' + id.substr(mark + 1)));
         std::string hint = did_you_mean(id, ids_of(nodes_));
         if (!hint.empty()) return hint;
         std::vector<std::string> readable;

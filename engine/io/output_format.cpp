@@ -128,7 +128,8 @@ const OutputFormat& output_format(const std::filesystem::path& file) {
         known.insert(known.end(), format.extensions.begin(), format.extensions.end());
     }
     std::ranges::sort(known);
-    const std::string what = extension.empty()
+    const bool is_number = std::ranges::all_of(extension, [](char c) { return c >= '0' && c <= '9'; });
+    const std::string what = is_number  // of a frame; an empty one too
                                  ? "the name has no extension to tell the format"
                                  : fmt::format("no format is written as {}", in_quotes("." + extension));
     fail(ErrorKind::kGraph, fmt::format("{}: {}", file.string(), what), "use one of " + spaced(known));

@@ -235,7 +235,8 @@ std::optional<JsonFault> find_encoding_fault(std::string_view text) {
         if (length == 0)
             return JsonFault{at, fmt::format("the byte 0x{:02x} is not UTF-8", byte_at(at.rest(), 0)),
                              "save the file as UTF-8 text"};
-        if (at.peek() == '\0') return JsonFault{at, "a NUL byte", "save the file as UTF-8 text"};
+        if (at.peek() == '\0')
+            return JsonFault{at, "a NUL byte", "this is no text; 'keyline info' tells what is in an image"};
         at.advance(length);
     }
     return std::nullopt;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/params/validate.h"
 
+#include "engine/json/json_reader.h"
 #include "engine/params/colour_text.h"
 #include "engine/params/file_name.h"
 
@@ -72,7 +73,18 @@ private:
     void wrong_kind(const TypeInfo& type, const Value& value) const {
         const std::string kind =
             value.is(Value::Kind::kNull) ? "" : fmt::format(", {}", kind_name(value.kind));
-        must_be(value, kind, type.text());
+        must_be(value, kind, type.text(), in_needless_quotes(type, value) ? "leave out the quotes" : "");
+    }
+
+    // Whether it is the text of a value that would do.
+    static bool in_needless_quotes(const TypeInfo& type, const Value& value) {
+        if (!value.is(Value::Kind::kString)) return false;
+        try {
+            const Value inner = parse_json(value.text, {});
+            return !inner.is(Value::Kind::kString) && accepts(type, inner);
+        } catch (const Failure&) {
+            return false;
+        }
     }
 
     void must_be(const Value& value, std::string_view kind, std::string_view what,

@@ -4,7 +4,7 @@
 #include "engine/io/mended_source.h"
 #include "engine/kit/color_operation.h"
 #include "engine/node/node_adaptor.h"
-#include "engine/params/frames.h"
+#include "engine/params/missing_file.h"
 
 #include <charconv>
 #include <fmt/format.h>
@@ -93,20 +93,13 @@ private:
         const int frame = params.file.has_frame() ? wanted_frame(context.frame()) : 0;
         const std::filesystem::path path = params.file.at(frame);
         std::error_code unknown;  // where it can't be looked at, opening it says why
-        if (std::filesystem::exists(path, unknown) || unknown || !params.file.has_frame())
-            return context.open(path, options());
+        if (std::filesystem::exists(path, unknown) || unknown) return context.open(path, options());
         const std::optional<int> other = params.missing == Missing::kError ? std::nullopt : stand_in(frame);
-        if (!other) refuse_missing(path);
+        if (!other) throw AbsentInput(path.string(), hint_for_missing(params.file, frame));
         auto source = context.open(params.file.at(*other), options());
         context.warn(fmt::format("frame {} is missing; {} {} stands in", frame,
                                  params.missing == Missing::kBlack ? "black like frame" : "frame", *other));
         return params.missing == Missing::kBlack ? black_like(*source) : source;
-    }
-
-    [[noreturn]] void refuse_missing(const std::filesystem::path& path) const {
-        const std::vector<int> frames = params.file.frames_on_disk();
-        throw AbsentInput(path.string(), frames.empty() ? "no frame of it is on disk"
-                                                        : "on disk are frames " + format_frames(frames));
     }
 
     OpenOptions options() const {

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/base/absent_input.h"
 #include "engine/base/digest.h"
 #include "engine/io/text_file.h"
 #include "engine/kit/strokes_json.h"
 #include "engine/node/node_adaptor.h"
-#include "engine/params/frames.h"
+#include "engine/params/missing_file.h"
 
 #include <fmt/format.h>
 
@@ -56,18 +57,13 @@ struct StrokesRead {
 private:
     std::shared_ptr<const StrokesDatum> parsed(Context& context, const std::filesystem::path& file) const {
         std::error_code unknown;  // where it can't be looked at, reading it says why
-        if (!std::filesystem::exists(file, unknown) && !unknown) refuse_missing(file);
+        if (!std::filesystem::exists(file, unknown) && !unknown)
+            throw AbsentInput(file.string(), hint_for_missing(params.file, context.frame()));
         const Digest key = Digester("strokes").add(context.file(file)).digest();
         const std::size_t bytes = std::filesystem::file_size(file, unknown);
         return context.remember<StrokesDatum>(key, unknown ? 0 : bytes, [&] {
             return StrokesDatum(parse_strokes(read_text_file(file), file.string()));
         });
-    }
-
-    [[noreturn]] void refuse_missing(const std::filesystem::path& file) const {
-        const std::vector<int> frames = params.file.frames_on_disk();
-        fail(ErrorKind::kInput, fmt::format("{}: no such file", file.string()),
-             frames.empty() ? "no frame of it is on disk" : "on disk are frames " + format_frames(frames));
     }
 };
 

@@ -229,7 +229,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"\"\xF4\x90\x80\x80\"", "1:2: error: the byte 0xf4 is not UTF-8; save the file as UTF-8 text"},
         Case{"\"\xE2\x82", "1:2: error: the byte 0xe2 is not UTF-8; save the file as UTF-8 text"},
         // The parser alone would take a NUL for the end.
-        Case{std::string("[]\0]", 4), "1:3: error: a NUL byte; save the file as UTF-8 text"}));
+        Case{std::string("[]\0]", 4),
+             "1:3: error: a NUL byte; this is no text; 'keyline info' tells what is in an image"}));
 
 TEST(OptionValue, IsJsonWhereItIsJson) {
     const std::string option = "--set a.b=x";

@@ -98,7 +98,17 @@ TEST_F(Info, TellsTheFrameThatIsUnlikeTheOthers) {
 TEST_F(Info, ASequenceWithoutFramesIsAnErrorOfTheInput) {
     const Outcome run = keyline({"info", "a.####.exr"});
     EXPECT_EQ(run.status, 3);
-    EXPECT_EQ(run.err, "error: 'a.####.exr': no frame of it is on disk\n");
+    EXPECT_EQ(run.err, "error: a.####.exr: no such file; no frame of it is on disk\n");
+}
+
+TEST_F(Info, AFileThatIsNotThereIsToldWithOneOfNearlyItsName) {
+    input("street.0001.exr", Image(kWindow, {"Y"}));
+    EXPECT_EQ(keyline({"info", "stret.0001.exr"}).err,
+              "error: stret.0001.exr: no such file; did you mean 'street.0001.exr'?\n");
+    EXPECT_EQ(
+        keyline({"info", "stret.####.exr"}).err,
+        "error: stret.####.exr: no such file; no frame of it is on disk; did you mean 'street.0001.exr'?\n");
+    EXPECT_EQ(keyline({"info", "house.exr"}).err, "error: house.exr: no such file\n");
 }
 
 TEST_F(Info, TypesAreThoseInTheFile) {

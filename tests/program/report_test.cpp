@@ -89,6 +89,15 @@ TEST_F(Report, CheckLooksAtAllFramesGiven) {
     EXPECT_THAT(run.err, HasSubstr("in.0008.exr: no such file; on disk are frames 7, 9"));
 }
 
+TEST_F(Report, CheckTellsOfAFileWithNearlyTheNameOfOneThatIsNotThere) {
+    sequence_graph();
+    EXPECT_THAT(
+        keyline({"check", "graph.json", "--set", "r.file=im.####.exr"}).err,
+        HasSubstr("im.0001.exr: no such file; no frame of it is on disk; did you mean 'in.0007.exr'?"));
+    EXPECT_THAT(keyline({"check", "graph.json", "--set", "r.file=in.007.exr"}).err,
+                HasSubstr("in.007.exr: no such file; did you mean 'in.0007.exr'?"));
+}
+
 TEST_F(Report, CheckLooksAtEveryGraphGiven) {
     sequence_graph();
     write("wrong.json", "{}");
