@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Makes a large plate of a small one:  bench_mosaic IN.exr N OUT.exr  lays N × N copies side by side, every
-// other one mirrored, so that there are no seams and deflate finds no repeats.  Channels keep their types.
+// other one mirrored, so that there are no seams and deflate finds no repeats.  Channels keep their types,
+// Cryptomattes the names of their objects.
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -17,6 +18,7 @@
 #include <iostream>
 #include <map>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -65,6 +67,8 @@ void run(const std::string& from, int n, const std::string& to) {
     std::map<std::string, Plane> planes = read_planes(in, width, height);
     Imf::Header header(width * n, height * n);
     header.compression() = in.header().compression();
+    for (auto a = in.header().begin(); a != in.header().end(); ++a)
+        if (std::string_view(a.name()).starts_with("cryptomatte/")) header.insert(a.name(), a.attribute());
     Imf::FrameBuffer buffer;
     for (auto& [name, plane] : planes) {
         plane.samples = tile(plane, width, height, n);
