@@ -7,10 +7,11 @@
 #include "engine/node/node_adaptor.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
-// What an image is beside strokes, on the side of what they belong to: on the line itself samples are mixed
-// of both sides.
+// What an image is beside strokes, most often on the side of what they belong to: on the line itself samples
+// are mixed of both sides.
 
 namespace KEYLINE_API keyline {
 
@@ -36,11 +37,12 @@ struct SampleBeside {
         static constexpr auto fields = declare(input(&Params::image, "image", "", matte()),
                                                input(&Params::strokes, "strokes", "", data<Strokes>()));
     };
+    enum Side { kNear, kFar };
     using State = std::vector<StrokeSample>;
     using Partial = std::vector<StrokeSample>;
 
     static State start(const Rect&) { return {}; }
-    static Partial map(const State&, const Inputs& in, const Rect& block, Scratch&);
+    Partial map(const State&, const Inputs& in, const Rect& block, Scratch&) const;
     static void fold(State& state, Partial&& found) { state.insert(state.end(), found.begin(), found.end()); }
     static StrokeSamples finish(State state);
 
@@ -48,6 +50,24 @@ struct SampleBeside {
     static std::size_t state_bytes(const Rect&) { return kUsual; }
     static std::size_t partial_bytes(const Rect&) { return kUsual; }
     static std::size_t datum_bytes(const Rect&) { return kUsual; }
+
+    Side side = kNear;
+};
+
+// Gives samples back to those who go through all strokes and their vertices in order.
+class SampleReader {
+public:
+    explicit SampleReader(const StrokeSamples& samples)
+        : next_(samples.samples.begin()), end_(samples.samples.end()) {}
+
+    // Nothing outside the image.
+    std::optional<float> at(uint32_t stroke, uint32_t vertex) {
+        if (next_ == end_ || next_->stroke != stroke || next_->vertex != vertex) return {};
+        return (next_++)->value;
+    }
+
+private:
+    std::vector<StrokeSample>::const_iterator next_, end_;
 };
 
 // Where there is no image: none of its samples.

@@ -71,6 +71,7 @@ double mean(const Stroke& s, double StrokeVertex::*what) {
 
 // What a part of a stroke may differ by in itself: a share of its width or so many pixels, whichever is more.
 constexpr double kPartWidth = 0.25, kPartPixels = 0.3, kPartOpacity = 0.15;
+constexpr double kMostSteps = 64;  // between two points
 
 double step_of_width(double widest) { return std::max(kPartPixels, kPartWidth * widest); }
 
@@ -95,11 +96,12 @@ std::vector<StrokeVertex> finely(const Stroke& s) {
     std::vector<StrokeVertex> out{s.vertices.front()};
     for (std::size_t i = 1; i < s.vertices.size() + (s.closed ? 1 : 0); ++i) {
         const StrokeVertex a = s.vertices[i - 1], &b = s.vertices[i % s.vertices.size()];
-        const double steps =
+        const double apart =
             2 * std::max(std::fabs(b.width - a.width) / step_of_width(std::max(a.width, b.width)),
                          std::fabs(b.opacity - a.opacity) / kPartOpacity);
-        for (double k = 1; k < steps; ++k) {
-            const auto between = [share = k / std::ceil(steps)](double from, double to) {
+        const int steps = static_cast<int>(std::min(std::ceil(apart), kMostSteps));
+        for (int k = 1; k < steps; ++k) {
+            const auto between = [share = static_cast<double>(k) / steps](double from, double to) {
                 return from + share * (to - from);
             };
             StrokeVertex v = a;

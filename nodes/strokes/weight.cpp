@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/crowded_strokes.h"
 #include "engine/kit/stroke_samples.h"
+#include "engine/kit/stroke_sharpness.h"
 #include "engine/kit/strokes.h"
 #include "engine/kit/wildcard.h"
 #include "engine/node/node_adaptor.h"
@@ -62,6 +63,7 @@ struct WeightParams {
     std::optional<ByDepth> by_depth;
     double by_curvature = 0;
     std::array<double, 2> by_angle{1, 1};
+    std::optional<Input> normal;
     Map<double> by_kind, by_object;
     std::optional<Input> map;
     std::array<double, 2> by_map{0, 1};
@@ -82,6 +84,12 @@ struct WeightParams {
               "The factors where the surfaces on both sides go on into each other, and where they are back "
               "to back.",
               at_least(0).tested_to(4)),
+        input(
+            &WeightParams::normal, "normal",
+            "Normals, looked up beside the line on both sides, for 'by_angle': against nothing a surface is "
+            "back to back. Without them it takes the 'sharpness' that the strokes have, which only files "
+            "tell.",
+            named("X", "Y", "Z")),
         field(&WeightParams::by_kind, "by_kind", "The factors of kinds: { \"crease\": 0.6 }.",
               at_least(0).tested_to(4)),
         field(&WeightParams::by_object, "by_object",
@@ -122,16 +130,14 @@ struct Weigh {
     Strokes derive(const Inputs& in) const {
         Strokes out = in.datum<Strokes>(0);
         const double unit = params.units == Units::kPixels ? 1 : display_unit(out);
-        auto sample = in.datum<StrokeSamples>(1).samples.begin();
-        const auto end = in.datum<StrokeSamples>(1).samples.end();
+        SampleReader samples(in.datum<StrokeSamples>(1));
         for (uint32_t s = 0; s < out.strokes.size(); ++s) {
             Stroke& stroke = out.strokes[s];
             const double whole = factor_of(out, stroke);
             for (uint32_t i = 0; i < stroke.vertices.size(); ++i) {
                 StrokeVertex& v = stroke.vertices[i];
                 double factor = whole * factor_at(v, unit);
-                const bool sampled = sample != end && sample->stroke == s && sample->vertex == i;
-                if (params.map) factor *= factor_of_map(sampled ? double{(sample++)->value} : 0);
+                if (params.map) factor *= factor_of_map(double{samples.at(s, i).value_or(0)});
                 v.width *= factor > 0 ? std::max(factor, params.min) : 0;
             }
             even_out(stroke, params.smooth * unit);
@@ -224,7 +230,8 @@ struct Weight {
     explicit Weight(Params p) : params(std::move(p)) {}
 
     Stream expand(Builder& builder) const {
-        const Stream in = builder.input(params.in);
+        Stream in = builder.input(params.in);
+        if (params.normal) in = with_sharpness(builder, in, builder.input(*params.normal));
         const Stream samples = params.map
                                    ? add_operation(builder, SampleBeside{}, {builder.input(*params.map), in})
                                    : add_operation(builder, NoSamples{}, {});

@@ -76,6 +76,42 @@ TEST(Weight, TakesTheAngleBetweenTheSides) {
     EXPECT_DOUBLE_EQ(width_of(strokes_in(kHalf, {s}), params), 1.5);
 }
 
+// Facing up in the upper half, turned by so many degrees in the lower; 50 high.
+Image bent_by(double degrees) {
+    const double angle = degrees * M_PI / 180;
+    Image out({0, 0, 60, 50}, {"X", "Y", "Z"});
+    out.fill("Y", [&](int, int y) { return y < 30 ? 1 : std::cos(angle); });
+    out.fill("Z", [&](int, int y) { return y < 30 ? 0 : std::sin(angle); });
+    return out;
+}
+
+TEST(Weight, SeesTheAngleInNormalsOnBothSides) {
+    const Json params{
+        {"width", 1}, {"units", "px"}, {"by_angle", Json{0, 2}}, {"min", 0}, {"normal", "normal"}};
+    const auto vertex = [&](const Stroke& s, const Image& normals) {
+        return run_on_strokes("weight", params, strokes_in({0, 0, 60, 50}, {s}), {}, {{"normal", normals}})
+            .strokes.at(0)
+            .vertices.at(1);
+    };
+    const Stroke right = stroke({{10, 30}, {20, 30}, {30, 30}}),
+                 left = stroke({{30, 30}, {20, 30}, {10, 30}});
+    for (const double degrees : {0.0, 1.0, 30.0, 89.0, 90.0, 120.0, 180.0})
+        for (const Stroke& s : {right, left}) {
+            const StrokeVertex v = vertex(s, bent_by(degrees));
+            EXPECT_NEAR(v.sharpness, degrees, 0.02);
+            EXPECT_NEAR(v.width, 1 - std::cos(degrees * M_PI / 180), 1e-3) << degrees;
+        }
+    Image half = bent_by(0);
+    for (const char* axis : {"X", "Y", "Z"})
+        half.fill(axis, [&](int, int y) { return *axis == 'Y' && y >= 30 ? 0.3 : 0; });
+    EXPECT_EQ(vertex(right, half).sharpness, 180) << "before nothing";
+    Stroke known = left;
+    known.vertices[1].sharpness = 40;
+    EXPECT_EQ(vertex(known, half).sharpness, 40) << "where no normal is known";
+    const Image nan = bent_by(0).fill("X", [](int, int) { return std::nan(""); });
+    EXPECT_EQ(vertex(known, nan).sharpness, 40);
+}
+
 TEST(Weight, TakesKindsAndObjectsByName) {
     std::vector<Stroke> strokes{line(), line(), line(), line()};
     strokes[1].kind = strokes[2].kind = strokes[3].kind = StrokeKind::kCrease;
