@@ -65,7 +65,7 @@ private:
         const Meaning meaning = meaning_of(document_, path);
         if (meaning.type) return of_type(*meaning.type, before, meaning);
         if (path.size() == 2 && document_.string_of(path[0]->key) == "outputs")
-            add(links(known_, before, ""));
+            add(links(known_, before, "", {}));
     }
 
     void of_new_item(const std::vector<const JsonItem*>& path, const std::string& before) {
@@ -82,7 +82,7 @@ private:
         switch (type.kind) {
             case TypeInfo::Kind::kWord: return add(words(type));
             case TypeInfo::Kind::kBool: return add(truths());
-            case TypeInfo::Kind::kInput: return add(links(known_, before, id));
+            case TypeInfo::Kind::kInput: return add(links(known_, before, id, type.takes));
             case TypeInfo::Kind::kFile: return add(files(document_.folder(), before));
             case TypeInfo::Kind::kString: return add(named(type.names, known_, owner_of(meaning)));
             case TypeInfo::Kind::kAnyOf:
@@ -162,6 +162,7 @@ private:
         json.begin_object().field("label", offer.label).field("kind", static_cast<int>(offer.kind));
         if (!offer.detail.empty()) json.field("detail", offer.detail);
         if (!offer.help.empty()) json.field("documentation", offer.help);
+        if (!offer.fits) json.field("sortText", "~" + offer.label);
         json.field("filterText", offer.written).key("textEdit").begin_object().key("range");
         document_.text().write_range(json, at_);
         json.field("newText", offer.written).end_object().end_object();

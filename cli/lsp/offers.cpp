@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <map>
 
 namespace keyline::lsp {
@@ -93,26 +94,51 @@ std::vector<Offer> names_in_expressions() {
 
 namespace {
 
-std::vector<Offer> layers(const Known& known, const std::string& id) {
+// Whether an input takes a layer that has these channels.
+bool fits(const Takes& takes, const std::vector<std::string>& channels) {
+    const auto has = [&](const char* name) { return std::ranges::count(channels, name) > 0; };
+    switch (takes.kind) {
+        case Takes::Kind::kAny: return true;
+        case Takes::Kind::kColour: return has("R") && has("G") && has("B");
+        case Takes::Kind::kMatte: return channels.size() == 1 || has("A");
+        case Takes::Kind::kNamed:
+            return std::ranges::all_of(takes.names, [&](const char* name) { return !name || has(name); });
+        case Takes::Kind::kData: break;
+    }
+    return false;
+}
+
+std::vector<Offer> layers(const Known& known, const std::string& id, const Takes& takes) {
     std::vector<Offer> out;
-    std::map<std::string, std::string> channels;  // of each layer
+    std::map<std::string, std::vector<std::string>> channels;  // of each layer
     for (const std::string& name : channels_of(known.analysis, id)) {
         const ChannelName parts = split_channel(name);
-        std::string& of_layer = channels[std::string(parts.layer)];
-        of_layer += (of_layer.empty() ? "" : " ") + std::string(parts.base);
+        channels[std::string(parts.layer)].emplace_back(parts.base);
     }
     for (const auto& [layer, names] : channels)
-        if (!layer.empty()) out.push_back({id + ":" + layer, OfferKind::kReference, names, ""});
+        if (!layer.empty())
+            out.push_back({id + ":" + layer,
+                           OfferKind::kReference,
+                           fmt::format("{}", fmt::join(names, " ")),
+                           "",
+                           {},
+                           fits(takes, names)});
     for (const std::string& name : channels_of(known.analysis, id))
-        out.push_back({id + ":" + name, OfferKind::kReference, "one channel", ""});
+        out.push_back({id + ":" + name,
+                       OfferKind::kReference,
+                       "one channel",
+                       "",
+                       {},
+                       fits(takes, {std::string(split_channel(name).base)})});
     return out;
 }
 
 }  // namespace
 
-std::vector<Offer> links(const Known& known, const std::string& typed, const std::string& own) {
+std::vector<Offer> links(const Known& known, const std::string& typed, const std::string& own,
+                         const Takes& takes) {
     if (const std::size_t colon = typed.find(':'); colon != std::string::npos)
-        return layers(known, typed.substr(0, colon));
+        return layers(known, typed.substr(0, colon), takes);
     std::vector<Offer> out;
     for (const char* section : {"nodes", "inputs"}) {
         const JsonTree* tree = known.document.section(section);

@@ -32,6 +32,7 @@ struct Offer {
     OfferKind kind;
     std::string detail, help;
     std::string written = {};  // as it is put into the text; empty: the label in quotes
+    bool fits = true;          // what does not stands behind what does
 };
 
 // "a number, from 0 to 500 pixels; default 1"
@@ -47,8 +48,9 @@ std::vector<Offer> words(const TypeInfo& type);
 std::vector<Offer> truths();
 std::vector<Offer> names_in_expressions();
 
-// Of nodes, but `own`; behind a colon, of the node's layers and channels.
-std::vector<Offer> links(const Known& known, const std::string& typed, const std::string& own);
+// Of nodes, but `own`; behind a colon, of the node's layers and channels, those first that the input takes.
+std::vector<Offer> links(const Known& known, const std::string& typed, const std::string& own,
+                         const Takes& takes);
 
 // What lies in the folder that was typed, frames of a sequence as one.
 std::vector<Offer> files(const std::filesystem::path& folder, const std::string& typed);

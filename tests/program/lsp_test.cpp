@@ -209,6 +209,23 @@ TEST_F(Lsp, OffersNodesAndTheLayersOfTheFilesThatTheyRead) {
                 Contains("a:magnitude"));
 }
 
+TEST_F(Lsp, OffersFirstTheLayersThatAnInputTakes) {
+    const auto first = [&](const std::string& text) {
+        std::vector<std::string> out;
+        const Json answer = ask_at(graph_of(text), "textDocument/completion");
+        for (const Json& item : answer.at("items"))
+            if (!item.contains("sortText")) out.push_back(item.at("label"));
+        return out;
+    };
+    EXPECT_THAT(first(R"("a": { "type": "ycolor", "in": "render:|" })"),
+                testing::UnorderedElementsAre("render:ViewLayer.Combined", "render:ViewLayer.DiffCol"));
+    EXPECT_THAT(first(R"("a": { "type": "planestep", "in": "render:|" })"),
+                AllOf(IsSupersetOf({"render:ViewLayer.Depth", "render:ViewLayer.Depth.Z"}),
+                      Not(Contains("render:ViewLayer.Normal"))));
+    EXPECT_THAT(first(R"("a": { "type": "cel", "normal": "render:|" })"),
+                testing::UnorderedElementsAre("render:ViewLayer.Normal", "render:ViewLayer.Vector"));
+}
+
 TEST_F(Lsp, OffersWhatFilesAndConfigsHold) {
     EXPECT_THAT(offered(graph_of(R"("a": { "type": "cryptomatte", "in": "render", "objects": ["|"] })")),
                 Contains("wall"));
