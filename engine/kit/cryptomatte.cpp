@@ -95,6 +95,17 @@ std::vector<ValueRef> Cryptomatte::values() const {
     return out;
 }
 
+void add_cryptomatte(Stream& stream, const Cryptomatte& of, const Cryptomatte::Rank& rank, ValueRef nothing) {
+    CryptomatteInfo one_level = *of.info;
+    one_level.levels = 1;
+    const auto shared = std::make_shared<const CryptomatteInfo>(std::move(one_level));
+    const std::string level = of.name.empty() ? "" : of.name + "00.";
+    const std::array channels{rank.id, rank.coverage, nothing, nothing};
+    for (int i = 0; i < 4; ++i)
+        stream.set({level + "rgba"[i], channels[index(i)], i % 2 == 0 ? Holds::kId : Holds::kData, false,
+                    shared, i});
+}
+
 void refuse_half(const Builder& builder, ValueRef id, std::string_view name) {
     if (builder.stored_type(id).value_or(SampleType::kFloat) == SampleType::kHalf)
         fail(ErrorKind::kInput,

@@ -50,6 +50,9 @@ std::vector<Cryptomatte> cryptomattes_of(const Stream& stream);
 // where its ids are stored as half.
 Cryptomatte find_cryptomatte(Builder& builder, const Stream& stream, std::string_view layer);
 
+// Adds a Cryptomatte with the names of another and one object a pixel: that rank, and a channel that is 0.
+void add_cryptomatte(Stream& stream, const Cryptomatte& of, const Cryptomatte::Rank& rank, ValueRef nothing);
+
 // Throws Failure (kInput) for ids of a Cryptomatte that are stored as half.
 void refuse_half(const Builder& builder, ValueRef id, std::string_view name);
 

@@ -116,19 +116,6 @@ struct IdEdge {
     Stream expand(Builder& builder) const;
 
     const Params params;
-
-private:
-    // One object a pixel: the line's owner.
-    static void add_cryptomatte(Stream& stream, const Cryptomatte& of, std::span<const ValueRef> line) {
-        CryptomatteInfo one_level = *of.info;
-        one_level.levels = 1;
-        const auto shared = std::make_shared<const CryptomatteInfo>(std::move(one_level));
-        const std::string level = of.name.empty() ? "" : of.name + "00.";
-        const std::array ranks{line[1], line[0], line[2], line[2]};
-        for (int i = 0; i < 4; ++i)
-            stream.set({level + "rgba"[i], ranks[index(i)], i % 2 == 0 ? Holds::kId : Holds::kData, false,
-                        shared, i});
-    }
 };
 
 class EdgeLine final : public Operation {
@@ -217,7 +204,7 @@ Stream IdEdge::expand(Builder& builder) const {
     stream.channels.clear();
     stream.set(outputs[0], line[0]);
     stream.set({outputs[1], line[1], Holds::kId, ids.integers});
-    if (ids.crypto) add_cryptomatte(stream, *ids.crypto, line);
+    if (ids.crypto) add_cryptomatte(stream, *ids.crypto, {line[1], line[0]}, line[2]);
     return stream;
 }
 

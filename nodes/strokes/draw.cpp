@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/kit/cryptomatte.h"
 #include "engine/kit/ink.h"
+#include "engine/kit/line_values.h"
 #include "engine/kit/stroke_samples.h"
 #include "engine/node/node_adaptor.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace keyline {
 
@@ -17,6 +20,18 @@ constexpr auto words(Overlap) {
     return std::array{Word<Overlap>{"union", Overlap::kUnion,
                                     "as dark as the darkest of them: crossings don't show in pale ink"},
                       Word<Overlap>{"over", Overlap::kOver, "each over those after it, as films lie"}};
+}
+
+enum class LineChannel { kId, kU, kV, kWidth, kDepth };
+
+constexpr auto words(LineChannel) {
+    using enum LineChannel;
+    return std::array{
+        Word<LineChannel>{"id", kId, "which of the strokes it is, from 1 on, a whole number"},
+        Word<LineChannel>{"u", kU, "how far along the stroke, 0 to 1"},
+        Word<LineChannel>{"v", kV, "how far across it, -1 to 1 on its owner's side"},
+        Word<LineChannel>{"width", kWidth, "how wide the stroke is there, in pixels"},
+        Word<LineChannel>{"Z", kDepth, "the depth of its owner there, 0 where it is not known"}};
 }
 
 struct MakeInk {
@@ -119,7 +134,9 @@ struct DrawStrokes {
         Input in;
         Color color;
         Overlap overlap = Overlap::kUnion;
-        std::optional<Input> tint, like;
+        std::optional<Input> tint, like, owner;
+        std::string layer;
+        std::vector<LineChannel> channels;
 
         static constexpr auto fields = declare(
             input(&Params::in, "in", "The strokes.", data<Strokes>()),
@@ -132,7 +149,18 @@ struct DrawStrokes {
                 "Multiplied into the colour: an image, as an albedo, looked up beside each stroke on what it "
                 "belongs to. A stroke has one colour along its way.",
                 colour_without_alpha()),
-            input(&Params::like, "like", "An image whose windows to take instead of the strokes' frame."));
+            input(&Params::like, "like", "An image whose windows to take instead of the strokes' frame."),
+            input(
+                &Params::owner, "owner",
+                "The image with the Cryptomatte that the strokes' objects are of: the drawing gets a channel "
+                "'edge' and a Cryptomatte of the same name, so that a cryptomatte node after this one picks "
+                "lines by their objects' names. Only the names are read.",
+                any_channels()),
+            field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one.")
+                .naming(Naming::kCryptomatte),
+            field(&Params::channels, "channels",
+                  "What else to tell of each pixel's line, as channels 'line.id', 'line.u', ...; of several "
+                  "that of the one that covers most of it."));
     };
     static constexpr std::array outputs{"R", "G", "B", "A"};
 
@@ -150,12 +178,49 @@ struct DrawStrokes {
         const Stream ink =
             add_operation(builder, MakeInk{stream.window, params.color, params.tint.has_value()},
                           {stream, tint[0], tint[1], tint[2]});
-        return add_operation(builder, LayInk{params.overlap}, {ink});
+        Stream out = add_operation(builder, LayInk{params.overlap}, {ink});
+        if (params.owner || !params.channels.empty()) add_lines(builder, stream, ink, out);
+        return out;
     }
 
     const Params params;
 
 private:
+    // What the lines are, to what they look like.
+    void add_lines(Builder& builder, const Stream& strokes, const Stream& ink, Stream& out) const {
+        const Stream places = add_operation(builder, FindLinePlaces{}, {strokes});
+        const Stream lines = add_operation(builder, LayLineValues{}, {ink, places});
+        const auto value = [&](LayLineValues::Output o) { return lines.channels[o].value; };
+        if (params.owner) {
+            const Cryptomatte of = find_cryptomatte(builder, builder.input(*params.owner), params.layer);
+            out.set("edge", value(LayLineValues::kEdge));
+            add_cryptomatte(out, of, {value(LayLineValues::kOwner), value(LayLineValues::kEdge)},
+                            value(LayLineValues::kNothing));
+        }
+        for (const LineChannel channel : params.channels) {
+            const bool id = channel == LineChannel::kId;
+            out.set({fmt::format("line.{}", word_of(channel)), value(output_of(channel)),
+                     id ? Holds::kId : Holds::kData, id});
+        }
+    }
+
+    static LayLineValues::Output output_of(LineChannel channel) {
+        switch (channel) {
+            case LineChannel::kId: return LayLineValues::kStroke;
+            case LineChannel::kU: return LayLineValues::kU;
+            case LineChannel::kV: return LayLineValues::kV;
+            case LineChannel::kWidth: return LayLineValues::kWidth;
+            case LineChannel::kDepth: break;
+        }
+        return LayLineValues::kDepth;
+    }
+
+    static const char* word_of(LineChannel channel) {
+        for (const auto& w : words(channel))
+            if (w.value == channel) return w.word;
+        return "";
+    }
+
     // Red, green and blue.
     std::array<Stream, 3> tint_beside(Builder& builder, const Stream& strokes) const {
         std::array<Stream, 3> out;

@@ -4,6 +4,7 @@
 #include "tests/support/strokes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <gmock/gmock.h>
 
@@ -219,6 +220,76 @@ TEST(DrawStrokes, TakesTheWindowsOfAnImage) {
     EXPECT_EQ(image.window, (Rect{-3, 0, 20, 10}));
     EXPECT_EQ(image.at("A", -2, 4), 1);
     EXPECT_EQ(image.at("A", 11, 4), 1);
+}
+
+TEST(DrawStrokes, TellsWhereAlongItsLineAPixelIs) {
+    Stroke s = stroke({{4, 10}, {24, 10}}, 4);
+    s.vertices[1].width = 2;
+    s.vertices[0].depth = 6;
+    s.vertices[1].depth = 8;
+    measure(s);
+    Stroke unknown = stroke({{10, 20}, {20, 20}}, 2);
+    unknown.vertices[0].depth = 5;
+    measure(unknown);
+    const Json params{{"channels", {"id", "u", "v", "width", "Z"}}};
+    const Image image = draw_strokes("draw", params, strokes_in(kFrame, {s, unknown}));
+    const auto id_at = [&](int x, int y) { return std::bit_cast<uint32_t>(image.at("line.id", x, y)); };
+    EXPECT_EQ(id_at(13, 9), 1U);
+    EXPECT_NEAR(image.at("line.u", 13, 9), 0.475, 1e-6);
+    EXPECT_NEAR(image.at("line.width", 13, 9), 3.05, 1e-6);
+    EXPECT_NEAR(image.at("line.Z", 13, 9), 6.95, 1e-6);
+    EXPECT_NEAR(image.at("line.v", 13, 9), -0.5 / 1.525, 1e-6) << "on its left, as it runs to the right";
+    EXPECT_NEAR(image.at("line.v", 13, 10), 0.5 / 1.525, 1e-6) << "and its owner is below";
+    EXPECT_EQ(id_at(15, 19), 2U);
+    EXPECT_EQ(image.at("line.Z", 15, 19), 5) << "known at one end only";
+    for (const char* channel : {"line.u", "line.v", "line.width", "line.Z"})
+        EXPECT_EQ(image.at(channel, 15, 15), 0) << channel;
+    EXPECT_EQ(id_at(15, 15), 0U) << "between both";
+    EXPECT_FALSE(draw_strokes("draw", {}, strokes_in(kFrame, {s})).has("line.u")) << "unless asked for";
+}
+
+TEST(DrawStrokes, TellsTheSameForAllTilesAndThreads) {
+    const Json params{{"channels", {"id", "u", "v", "width", "Z"}}};
+    for (unsigned seed = 1; seed < 5; ++seed) {
+        const Strokes strokes = random_strokes(seed, kFrame);
+        const Image whole = draw_strokes("draw", params, strokes, {1, 0});
+        EXPECT_IMAGE(draw_strokes("draw", params, strokes, {2, 7}), whole);
+        for (int y = kFrame.y0; y < kFrame.y1; ++y)
+            for (int x = kFrame.x0; x < kFrame.x1; ++x) {
+                const float u = whole.at("line.u", x, y), v = whole.at("line.v", x, y);
+                ASSERT_TRUE(u >= 0 && u <= 1 && v >= -1 && v <= 1) << u << ' ' << v;
+                const bool line = std::bit_cast<uint32_t>(whole.at("line.id", x, y)) > 0;
+                ASSERT_EQ(line, whole.at("A", x, y) > 0) << x << ' ' << y;
+            }
+    }
+}
+
+// As of idedge: by name they come apart again, and together they are all there is.
+TEST(DrawStrokes, ArePickedByTheNameOfTheirOwner) {
+    const auto of = [](const char* objects) {
+        return Json{{"type", "cryptomatte"}, {"in", "lines"}, {"objects", {objects}}};
+    };
+    const Json nodes{
+        {"r", {{"type", "read"}, {"file", KEYLINE_PLATE}}},
+        {"strokes", {{"type", "contours"}, {"in", "r"}, {"layer", "CryptoObject"}, {"depth", "r:Depth"}}},
+        {"lines", {{"type", "draw"}, {"in", "strokes"}, {"owner", "r"}, {"layer", "CryptoObject"}}},
+        {"monkey", of("suzanne")},
+        {"all", of("*")}};
+    const std::map<std::string, Image> none;
+    const Image lines = run_graph(nodes, "lines", none), monkey = run_graph(nodes, "monkey", none),
+                all = run_graph(nodes, "all", none);
+    double hers = 0, of_all = 0;
+    for (int y = 0; y < 270; ++y)
+        for (int x = 0; x < 480; ++x) {
+            const float matte = monkey.at("matte", x, y);
+            ASSERT_TRUE(matte == 0 || matte == lines.at("edge", x, y)) << x << ' ' << y;
+            ASSERT_EQ(all.at("matte", x, y), lines.at("edge", x, y));
+            ASSERT_EQ(lines.at("edge", x, y), lines.at("A", x, y)) << "as lines of one opacity unite";
+            hers += double{matte};
+            of_all += double{all.at("matte", x, y)};
+        }
+    EXPECT_GT(hers, 150);
+    EXPECT_LT(hers, of_all / 4);
 }
 
 // Red above 20, blue below; each line is as what it belongs to, on its right, along its whole way.
