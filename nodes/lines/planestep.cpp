@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/node/node_adaptor.h"
-#include "engine/node/pixel_loop.h"
+#include "engine/simd/plane_step.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 namespace keyline {
 
@@ -29,42 +29,68 @@ struct PlaneStep {
 
     explicit PlaneStep(const Params& p) : in(p.in) {}
 
-    static Halo halo() { return {2, 2}; }
+    static Halo halo() { return {kReach, kReach}; }
 
-    void compute(const Inputs& inputs, Outputs out, Scratch&) const {
+    // At the rim of the picture nobody knows both surfaces.
+    void compute(const Inputs& inputs, Outputs out, Scratch& scratch) const {
         const View& depth = inputs[in][0];
         const Rect& rect = out[0].rect;
-        for (int y = rect.y0; y < rect.y1; ++y)
-            for (int x = rect.x0; x < rect.x1; ++x) {
-                const double dx = step(depth, x, y, 1, 0), dy = step(depth, x, y, 0, 1);
-                *out[0].at(x, y) = with_one_nan(static_cast<float>(dx));
-                *out[1].at(x, y) = with_one_nan(static_cast<float>(dy));
-                *out[2].at(x, y) = with_one_nan(static_cast<float>(std::sqrt(dx * dx + dy * dy)));
-            }
+        Nearness nearness(depth, rect, scratch);
+        const int inner_x0 = std::clamp(depth.rect.x0 + kReach, rect.x0, rect.x1),
+                  inner_x1 = std::clamp(depth.rect.x1 - kReach, inner_x0, rect.x1);
+        for (int y = rect.y0; y < rect.y1; ++y) {
+            const bool known_y = y - kReach >= depth.rect.y0 && y + kReach < depth.rect.y1;
+            const auto fill = [&](int x0, int x1, bool known_x) {
+                simd::plane_step_row(nearness.around(x0, y), x1 - x0, known_x, known_y,
+                                     {out[0].at(x0, y), out[1].at(x0, y), out[2].at(x0, y)});
+            };
+            fill(rect.x0, inner_x0, false);
+            fill(inner_x0, inner_x1, true);
+            fill(inner_x1, rect.x1, false);
+        }
     }
 
     const Input in;
 
 private:
-    static double nearness(const View& depth, int x, int y) {
-        const double z = *depth.at(x, y);
-        return z <= 0 ? 0 : 1 / z;
-    }
+    static constexpr int kReach = 2;
 
-    // Along one axis.  At the rim of the picture nobody knows both surfaces.
-    static double step(const View& depth, int x, int y, int u, int v) {
-        if (!depth.rect.contains(x - 2 * u, y - 2 * v) || !depth.rect.contains(x + 2 * u, y + 2 * v))
-            return 0;
-        const auto at = [&](int i) { return nearness(depth, x + i * u, y + i * v); };
-        const double before = at(-1), behind = at(1), difference = behind - before;
-        const double by_first = difference - 2 * (before - at(-2));
-        const double by_second = difference - 2 * (at(2) - behind);
-        const double both = by_first * by_second;
-        if (both != both) return both;
-        if (!(both > 0)) return 0;
-        const double step = std::fabs(by_first) < std::fabs(by_second) ? by_first : by_second;
-        return step / std::max(before, behind);
-    }
+    // 1 / depth of the rows around one; they are asked for from top to bottom.
+    class Nearness {
+    public:
+        Nearness(const View& depth, const Rect& rect, Scratch& scratch)
+            : depth_(depth),
+              x0_(rect.x0 - kReach),
+              width_(index(rect.width() + 2 * kReach)),
+              next_(std::max(rect.y0 - kReach, depth.rect.y0)),
+              values_(scratch.take<double>(kRows * width_)) {
+            std::ranges::fill(values_, 0.0);
+        }
+
+        // From x on; rows that are not there are others.
+        std::array<const double*, 5> around(int x, int y) {
+            for (; next_ < std::min(y + kReach + 1, depth_.rect.y1); ++next_) fill();
+            std::array<const double*, 5> out;
+            for (int i = 0; i < kRows; ++i) out[index(i)] = row(y - kReach + i) + (x - x0_);
+            return out;
+        }
+
+    private:
+        static constexpr int kRows = 2 * kReach + 1;
+
+        double* row(int y) const { return &values_[index((y % kRows + kRows) % kRows) * width_]; }
+        void fill() {
+            const int from = std::max(x0_, depth_.rect.x0),
+                      to = std::min(x0_ + static_cast<int>(width_), depth_.rect.x1);
+            simd::nearness_row(depth_.at(from, next_), to - from, row(next_) + (from - x0_));
+        }
+
+        const View& depth_;
+        int x0_;
+        std::size_t width_;
+        int next_;  // row to fill
+        std::span<double> values_;
+    };
 };
 
 }  // namespace
