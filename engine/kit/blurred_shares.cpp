@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/blurred_shares.h"
 
+#include "engine/kit/sparse_row.h"
 #include "engine/simd/elementary.h"
 
 #include <algorithm>
@@ -16,28 +17,36 @@ uint32_t in_parts(float coverage) {
     return coverage > 0 ? static_cast<uint32_t>(std::min(coverage, 1.0F) * SharedPixels::kWhole + 0.5F) : 0;
 }
 
+void mark_covered(const float* __restrict coverage, int n, uint8_t* __restrict marks) {
+    for (int i = 0; i < n; ++i) marks[i] |= static_cast<uint8_t>(coverage[i] > 0);
+}
+
+// The first object, where it has all of a pixel.
+void take_first(const float* __restrict id, const float* __restrict coverage, int n,
+                uint32_t* __restrict sole, uint8_t* __restrict mixed) {
+    for (int i = 0; i < n; ++i) {
+        const bool whole = (coverage[i] >= 1) & (id[i] != 0);
+        sole[i] = whole ? std::bit_cast<uint32_t>(id[i]) : 0;
+        mixed[i] &= static_cast<uint8_t>(!whole);
+    }
+}
+
 }  // namespace
 
-void ShareLists::begin(std::size_t pixel) {
-    pixel_ = pixel;
-    lists_[pixel] = {shares_.size(), 0};
+ShareLists::Open::Place ShareLists::room(std::size_t taken) {
+    constexpr std::size_t kMore = 16;
+    if (shares_.size() < used_ + taken + kMore) shares_.resize(2 * (used_ + taken + kMore));
+    Share* begin = &shares_[used_];
+    return {begin, begin + taken, shares_.data() + shares_.size()};
 }
 
-void ShareLists::add(uint32_t id, uint64_t sum) {
-    for (std::size_t i = shares_.size(); i-- > lists_[pixel_].first;)
-        if (shares_[i].id == id) {
-            shares_[i].sum += sum;
-            return;
-        }
-    shares_.push_back({id, sum});
-}
-
-uint32_t ShareLists::end() {
-    List& list = lists_[pixel_];
-    list.count = shares_.size() - list.first;
+uint32_t ShareLists::Open::close(std::size_t pixel) {
+    const auto count = static_cast<std::size_t>(place_.end - place_.begin);
+    lists_.lists_[pixel] = {lists_.used_, count};
+    lists_.used_ += count;
     Share most;
-    for (const Share& s : (*this)[pixel_])
-        if (s.sum > most.sum || (s.sum == most.sum && s.id > most.id)) most = s;
+    for (const Share* s = place_.begin; s != place_.end; ++s)
+        if (s->sum > most.sum || (s->sum == most.sum && s->id > most.id)) most = *s;
     return most.id;
 }
 
@@ -68,21 +77,20 @@ void SharedPixels::each(int x, int y, const Take& take) const {
     if (left > 0) take(0U, left);
 }
 
-// Most pixels are of their first object alone.
+// Most pixels are of their first object alone, or nobody's.
 void SharedPixels::find_soles(int y) {
     if (views_.size() == 1) {
         for (int x = rect_.x0; x < rect_.x1; ++x) find_sole(x, y);
         return;
     }
-    const float *id = views_[0].at(rect_.x0, y), *coverage = views_[1].at(rect_.x0, y);
-    uint32_t* sole = &sole_[place(rect_.x0, y)];
+    const int width = rect_.width();
     uint8_t* mixed = &mixed_[place(rect_.x0, y)];
-    for (int i = 0; i < rect_.width(); ++i) {
-        sole[i] = std::bit_cast<uint32_t>(id[i]);
-        mixed[i] = coverage[i] >= 1 && id[i] != 0 ? 0 : 1;
-    }
-    for (int i = 0; i < rect_.width(); ++i)
-        if (mixed[i] != 0) find_sole(rect_.x0 + i, y);
+    std::fill_n(mixed, width, uint8_t{0});
+    for (std::size_t r = 1; r < views_.size(); r += 2) mark_covered(views_[r].at(rect_.x0, y), width, mixed);
+    take_first(views_[0].at(rect_.x0, y), views_[1].at(rect_.x0, y), width, &sole_[place(rect_.x0, y)],
+               mixed);
+    each_where(
+        mixed, width, [](uint8_t m) { return m != 0; }, [&](int i) { find_sole(rect_.x0 + i, y); });
 }
 
 void SharedPixels::find_sole(int x, int y) {
@@ -111,15 +119,20 @@ void SharedPixels::mark_near(Scratch& scratch) {
     near_in_row_ = scratch.take<uint8_t>(sole_.size());
     near_ = scratch.take<uint8_t>(sole_.size());
     row_is_near_ = scratch.take<uint8_t>(index(rect_.height()));
+    row_meets_ = scratch.take<uint8_t>(index(rect_.height()));
     const auto meets = scratch.take<uint8_t>(index(width));
-    for (const auto& marks : {near_in_row_, near_, row_is_near_}) std::ranges::fill(marks, uint8_t{0});
+    for (const auto& marks : {near_in_row_, near_, row_is_near_, row_meets_})
+        std::ranges::fill(marks, uint8_t{0});
     for (int y = rect_.y0; y < rect_.y1; ++y) {
         if (!mark_meetings(y, meets)) continue;
+        row_meets_[index(y - rect_.y0)] = 1;
         uint8_t* in_row = &near_in_row_[place(rect_.x0, y)];
-        for (int i = 0; i < width; ++i)
-            if (meets[index(i)] != 0)
+        each_where(
+            meets.data(), width, [](uint8_t m) { return m != 0; },
+            [&](int i) {
                 std::fill(in_row + std::max(i - reach_, 0), in_row + std::min(i + reach_ + 1, width),
                           uint8_t{1});
+            });
         for (int v = std::max(y - reach_, rect_.y0); v < std::min(y + reach_ + 1, rect_.y1); ++v) {
             row_is_near_[index(v - rect_.y0)] = 1;
             uint8_t* to = &near_[place(rect_.x0, v)];
@@ -142,7 +155,8 @@ BlurredRows::BlurredRows(const SharedPixels& pixels, std::span<const uint32_t> w
     : pixels_(pixels),
       weights_(weights),
       whole_(index(pixels.rect().width())),
-      along_(weights.size(), Along{INT_MIN, ShareLists(index(pixels.rect().width()))}) {
+      along_(weights.size(), Along{INT_MIN, ShareLists(index(pixels.rect().width()))}),
+      mixed_(index(pixels.rect().width())) {
     const int reach = pixels.reach(), width = pixels.rect().width();
     for (int i = 0; i < width; ++i)
         for (int d = std::max(-reach, -i); d <= std::min(reach, width - 1 - i); ++d)
@@ -155,25 +169,31 @@ void BlurredRows::fill(int y, Row& row) {
     std::copy_n(pixels_.near(y), n, row.blurred_.begin());
     if (!pixels_.is_near_any(y)) return;
     row.lists_.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-        if (row.blurred_[i] == 0) continue;
-        row.lists_.begin(i);
-        blur_across(i, y, row.lists_);
-        row.labels_[i] = row.lists_.end();
-    }
+    find_crossed(y);
+    each_where(
+        row.blurred_.data(), static_cast<int>(n), [](uint8_t blurred) { return blurred != 0; },
+        [&](int i) { row.labels_[index(i)] = blur_across(index(i), row.lists_); });
 }
 
-void BlurredRows::blur_across(std::size_t i, int y, ShareLists& lists) {
+void BlurredRows::find_crossed(int y) {
     const Rect& rect = pixels_.rect();
     const int reach = pixels_.reach();
-    for (int v = std::max(y - reach, rect.y0); v < std::min(y + reach + 1, rect.y1); ++v) {
-        const uint64_t weight = weights_[index(v - y + reach)];
-        if (pixels_.near_in_row(v)[i] == 0) {
-            lists.add(pixels_.soles(v)[i], weight * whole_[i]);
-            continue;
-        }
-        for (const Share& s : along(v)[i]) lists.add(s.id, weight * s.sum);
+    crossed_.clear();
+    for (int v = std::max(y - reach, rect.y0); v < std::min(y + reach + 1, rect.y1); ++v)
+        crossed_.push_back(
+            {weights_[index(v - y + reach)], pixels_.soles(v), pixels_.near_in_row(v), &along(v)});
+}
+
+// Returns whose most of it is.
+uint32_t BlurredRows::blur_across(std::size_t pixel, ShareLists& to) const {
+    ShareLists::Open open(to);
+    for (const Crossed& row : crossed_) {
+        if (row.near_in_row[pixel] == 0)
+            open.add(row.soles[pixel], row.weight * whole_[pixel]);
+        else
+            for (const Share& s : (*row.lists)[pixel]) open.add(s.id, row.weight * s.sum);
     }
+    return open.close(pixel);
 }
 
 const ShareLists& BlurredRows::along(int y) {
@@ -182,27 +202,32 @@ const ShareLists& BlurredRows::along(int y) {
     if (out.y == y) return out.lists;
     out.y = y;
     out.lists.clear();
-    const uint8_t* near = pixels_.near_in_row(y);
-    for (int x = rect.x0; x < rect.x1; ++x) {
-        if (near[x - rect.x0] == 0) continue;
-        out.lists.begin(index(x - rect.x0));
-        blur_along(x, y, out.lists);
-        out.lists.end();
-    }
+    if (!pixels_.meets_any(y)) return out.lists;
+    const auto is_set = [](uint8_t mark) { return mark != 0; };
+    mixed_.clear();
+    each_where(pixels_.mixed(y), rect.width(), is_set, [&](int i) {
+        ShareLists::Open open(mixed_);
+        pixels_.each(rect.x0 + i, y, [&](uint32_t id, uint32_t parts) { open.add(id, parts); });
+        open.close(index(i));
+    });
+    each_where(pixels_.near_in_row(y), rect.width(), is_set,
+               [&](int i) { blur_along(index(i), y, out.lists); });
     return out.lists;
 }
 
-void BlurredRows::blur_along(int x, int y, ShareLists& lists) const {
-    const Rect& rect = pixels_.rect();
-    const int reach = pixels_.reach();
-    for (int u = std::max(x - reach, rect.x0); u < std::min(x + reach + 1, rect.x1); ++u) {
-        const uint64_t weight = weights_[index(u - x + reach)];
-        const uint32_t sole = pixels_.soles(y)[u - rect.x0];
-        if (pixels_.shows(sole, u, y))
-            lists.add(sole, weight * SharedPixels::kWhole);
+void BlurredRows::blur_along(std::size_t pixel, int y, ShareLists& to) const {
+    const int reach = pixels_.reach(), i = static_cast<int>(pixel), width = pixels_.rect().width();
+    const uint32_t* soles = pixels_.soles(y);
+    const uint8_t* mixed = pixels_.mixed(y);
+    ShareLists::Open open(to);
+    for (int k = std::max(i - reach, 0); k < std::min(i + reach + 1, width); ++k) {
+        const uint64_t weight = weights_[index(k - i + reach)];
+        if (mixed[k] == 0)
+            open.add(soles[k], weight * SharedPixels::kWhole);
         else
-            pixels_.each(u, y, [&](uint32_t id, uint32_t parts) { lists.add(id, weight * parts); });
+            for (const Share& s : mixed_[index(k)]) open.add(s.id, weight * s.sum);
     }
+    open.close(pixel);
 }
 
 std::vector<uint32_t> blur_weights(double sigma, int reach) {

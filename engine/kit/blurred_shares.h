@@ -29,21 +29,44 @@ class ShareLists {
 public:
     explicit ShareLists(std::size_t pixels) : lists_(pixels) {}
 
-    void clear() { shares_.clear(); }
-    void begin(std::size_t pixel);        // its list; the one before has ended
-    void add(uint32_t id, uint64_t sum);  // to what the object has already
-    uint32_t end();                       // whose most of it is; of two equal ones the larger id
+    void clear() { used_ = 0; }
     std::span<const Share> operator[](std::size_t pixel) const {
-        return std::span(shares_).subspan(lists_[pixel].first, lists_[pixel].count);
+        return {&shares_[lists_[pixel].first], lists_[pixel].count};
     }
+
+    // A list in the making; one at a time.
+    class Open {
+    public:
+        explicit Open(ShareLists& lists) : lists_(lists), place_(lists.room(0)) {}
+        void add(uint32_t id, uint64_t sum) {  // to what the object has already
+            for (Share* s = place_.end; s-- != place_.begin;)
+                if (s->id == id) {
+                    s->sum += sum;
+                    return;
+                }
+            if (place_.end == place_.limit)
+                place_ = lists_.room(static_cast<std::size_t>(place_.end - place_.begin));
+            *place_.end++ = {id, sum};
+        }
+        uint32_t close(std::size_t pixel);  // whose most of it is; of two equal ones the larger id
+
+    private:
+        ShareLists& lists_;
+        struct Place {
+            Share *begin, *end, *limit;
+        } place_;
+        friend ShareLists;
+    };
 
 private:
     struct List {
         std::size_t first = 0, count = 0;
     };
+    Open::Place room(std::size_t taken);  // for more than the shares that an open list has
+
     std::vector<List> lists_;
     std::vector<Share> shares_;
-    std::size_t pixel_ = 0;
+    std::size_t used_ = 0;  // of them
 };
 
 // The pixels of a region before they are blurred.
@@ -67,6 +90,8 @@ public:
     const uint8_t* near_in_row(int y) const { return &near_in_row_[place(rect_.x0, y)]; }
     const uint8_t* near(int y) const { return &near_[place(rect_.x0, y)]; }
     bool is_near_any(int y) const { return row_is_near_[index(y - rect_.y0)] != 0; }
+    bool meets_any(int y) const { return row_meets_[index(y - rect_.y0)] != 0; }  // in the row itself
+    const uint8_t* mixed(int y) const { return &mixed_[place(rect_.x0, y)]; }
 
     // take(id, parts) of each object in a pixel, and of nothing: kWhole in all.
     static constexpr uint32_t kWhole = 1U << 16;
@@ -88,7 +113,7 @@ private:
     int reach_;
     Rect rect_;
     std::span<uint32_t> sole_;
-    std::span<uint8_t> mixed_, near_in_row_, near_, row_is_near_;
+    std::span<uint8_t> mixed_, near_in_row_, near_, row_is_near_, row_meets_;
 };
 
 // Rows of it, blurred.  They are asked for from top to bottom.
@@ -117,14 +142,24 @@ private:
         int y = INT_MIN;
         ShareLists lists;
     };
+    // A row that a pixel is blurred across.
+    struct Crossed {
+        uint64_t weight;
+        const uint32_t* soles;
+        const uint8_t* near_in_row;
+        const ShareLists* lists;
+    };
+    void find_crossed(int y);
+    uint32_t blur_across(std::size_t pixel, ShareLists& to) const;
     const ShareLists& along(int y);
-    void blur_along(int x, int y, ShareLists& lists) const;
-    void blur_across(std::size_t i, int y, ShareLists& lists);
+    void blur_along(std::size_t pixel, int y, ShareLists& to) const;
 
     const SharedPixels& pixels_;
     std::span<const uint32_t> weights_;
     std::vector<uint64_t> whole_;  // by column: what a pixel weighs that is one object's in its row
     std::vector<Along> along_;     // rows blurred along themselves, by y modulo their number
+    std::vector<Crossed> crossed_;
+    ShareLists mixed_;  // what each has of the mixed pixels of the row that is blurred along itself
 };
 
 // A Gaussian's, as integers that sum to about 2^12.

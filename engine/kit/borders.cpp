@@ -35,9 +35,15 @@ public:
     }
 
     void link() {
-        for (const Crossing& c : map_.crossings) {
-            link_cell(c.x, c.y);
-            link_cell(c.down ? c.x - 1 : c.x, c.down ? c.y : c.y - 1);
+        for (std::size_t i = 0; i < map_.crossings.size(); ++i) {
+            const Crossing& c = map_.crossings[i];
+            for (int k = -1; k <= 1; ++k) {
+                Row& row = around_[index(k + 1)];
+                if (i == 0 || map_.crossings[i - 1].y != c.y) row = row_at(c.y + k);
+                while (row.next < row.end && map_.crossings[row.next].x < c.x - 1) ++row.next;
+            }
+            link_cell(c.x, 1);
+            link_cell(c.down ? c.x - 1 : c.x, c.down ? 1 : 0);
         }
     }
 
@@ -52,27 +58,32 @@ public:
     }
 
 private:
+    // Crossings of a row, from the first that is not too far to the left.
+    struct Row {
+        std::size_t next = 0, end = 0;
+    };
+
     std::size_t row_of(int y) const { return index(y - map_.crossings.front().y); }
 
-    int find(int x, int y, bool down) const {
-        if (y < map_.crossings.front().y || y > map_.crossings.back().y) return -1;
+    Row row_at(int y) const {
+        if (y < map_.crossings.front().y || y > map_.crossings.back().y) return {};
         const std::size_t row = row_of(y);
-        const auto at = [&](std::size_t i) {
-            return map_.crossings.begin() + static_cast<std::ptrdiff_t>(i);
-        };
-        const auto end = row + 1 < rows_.size() ? at(rows_[row + 1]) : map_.crossings.end();
-        const auto it = std::ranges::lower_bound(at(rows_[row]), end, std::tuple(y, x, down), {}, order_of);
-        return it != end && order_of(*it) == std::tuple(y, x, down)
-                   ? static_cast<int>(it - map_.crossings.begin())
-                   : -1;
+        return {rows_[row], row + 1 < rows_.size() ? rows_[row + 1] : map_.crossings.size()};
+    }
+
+    int find(const Row& row, int x, bool down) const {
+        for (std::size_t i = row.next; i < row.end && map_.crossings[i].x <= x; ++i)
+            if (map_.crossings[i].x == x && map_.crossings[i].down == down) return static_cast<int>(i);
+        return -1;
     }
     const Crossing& at(Exit e) const { return map_.crossings[index(e.crossing)]; }
     Next& next(Exit e) { return next_[index(e.crossing)][index(e.to)]; }
 
-    // The cell whose upper left corner is the centre of pixel (x, y).
-    void link_cell(int x, int y) {
-        const std::array<Exit, 4> sides{Exit{find(x, y, false), 1}, Exit{find(x + 1, y, true), 0},
-                                        Exit{find(x, y + 1, false), 0}, Exit{find(x, y, true), 1}};
+    // The cell whose upper left corner is the centre of pixel x in a row of those around.
+    void link_cell(int x, std::size_t r) {
+        const Row &here = around_[r], &below = around_[r + 1];
+        const std::array<Exit, 4> sides{Exit{find(here, x, false), 1}, Exit{find(here, x + 1, true), 0},
+                                        Exit{find(below, x, false), 0}, Exit{find(here, x, true), 1}};
         std::array<Exit, 4> crossed;
         const auto end =
             std::ranges::copy_if(sides, crossed.begin(), [](Exit e) { return e.crossing >= 0; }).out;
@@ -139,6 +150,7 @@ private:
     static int end_at(const Next& n) { return n.kind == Next::Kind::kJunction ? n.index : Border::kRim; }
 
     BorderMap& map_;
+    std::array<Row, 3> around_;              // the one that is being linked in the middle
     std::vector<std::size_t> rows_;          // the first crossing of each row, from the topmost's on
     std::vector<std::array<Next, 2>> next_;  // by crossing and exit
     std::vector<bool> seen_;

@@ -4,6 +4,7 @@
 
 #include "engine/base/index.h"
 #include "engine/kit/blurred_shares.h"
+#include "engine/kit/sparse_row.h"
 #include "engine/simd/elementary.h"
 
 #include <algorithm>
@@ -181,14 +182,12 @@ void FindCrossings::compute(const Inputs& in, Outputs out, Scratch& scratch) con
 
 std::vector<Crossing> crossings_in(std::span<const View> outputs, const Rect& block) {
     std::vector<Crossing> out;
-    for (int y = block.y0; y < block.y1; ++y) {
-        const float *right = outputs[kRight + kAlong].at(block.x0, y),
-                    *down = outputs[kDown + kAlong].at(block.x0, y);
-        for (int x = block.x0; x < block.x1; ++x) {
-            if (right[x - block.x0] != 0) out.push_back(crossing_at(outputs, kRight, x, y));
-            if (down[x - block.x0] != 0) out.push_back(crossing_at(outputs, kDown, x, y));
-        }
-    }
+    for (int y = block.y0; y < block.y1; ++y)
+        for (const std::size_t plane : {kRight, kDown})
+            each_where(
+                outputs[plane + kAlong].at(block.x0, y), block.width(),
+                [](float along) { return along != 0; },
+                [&](int i) { out.push_back(crossing_at(outputs, plane, block.x0 + i, y)); });
     return out;
 }
 

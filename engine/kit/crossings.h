@@ -55,7 +55,7 @@ private:
     std::vector<uint32_t> weights_;  // of the blur, along a row or a column
 };
 
-// Those of a block of the outputs, in row-major order.
+// Those of a block of the outputs.
 std::vector<Crossing> crossings_in(std::span<const View> outputs, const Rect& block);
 
 }  // namespace keyline

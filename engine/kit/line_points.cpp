@@ -3,11 +3,13 @@
 #include "engine/kit/line_points.h"
 
 #include "engine/base/index.h"
+#include "engine/kit/sparse_row.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace keyline {
 
@@ -16,17 +18,8 @@ namespace {
 constexpr float kFarthest = 0.6F;  // from a pixel's centre along an axis, of the points that are its own
 
 // Values around the region to compute, a pixel on each side where the picture has one.
-struct Field {
-    Rect rect;
-    std::span<float> values;
-
-    float at(int x, int y) const {
-        return values[index(y - rect.y0) * index(rect.width()) + index(x - rect.x0)];
-    }
-};
-
-Field empty_field(const Rect& rect, Scratch& scratch) {
-    return {rect, scratch.floats(static_cast<std::size_t>(rect.area()))};
+MutView empty_field(const Rect& rect, Scratch& scratch) {
+    return {scratch.floats(static_cast<std::size_t>(rect.area())).data(), rect.width(), rect, rect};
 }
 
 // Where a parabola through three values has its top, from the middle one.
@@ -41,24 +34,47 @@ class Edges {
 public:
     static constexpr std::array kOrders{std::array{1, 0}, std::array{0, 1}};
 
-    explicit Edges(std::span<const Field> fields) : dx_(fields[0]), dy_(fields[1]) {}
+    Edges(std::span<const View> fields, const Rect& around, double least, Scratch& scratch)
+        : dx_(fields[0]), dy_(fields[1]), squares_(empty_field(around, scratch)) {
+        for (int y = around.y0; y < around.y1; ++y)
+            square(dx_.at(around.x0, y), dy_.at(around.x0, y), index(around.width()), squares_.row(y));
+        // A little less, as roots are rounded.
+        const double square = std::min(least * least * (1 - 1e-6), double{std::numeric_limits<float>::max()});
+        least_square_ = static_cast<float>(square);
+    }
+
+    // Calls take(x) for the pixels of a row in which there may be a point.
+    template <class Take>
+    void each(int y, int x0, int x1, const Take& take) const {
+        each_where(
+            squares_.at(x0, y), x1 - x0, [&](float square) { return square >= least_square_; },
+            [&](int i) { take(x0 + i); });
+    }
 
     LinePoint at(int x, int y) const {
-        const float dx = dx_.at(x, y), dy = dy_.at(x, y), here = magnitude(x, y);
+        const float dx = *dx_.at(x, y), dy = *dy_.at(x, y);
         const bool across = std::fabs(dx) >= std::fabs(dy);
         const int u = across ? 1 : 0, v = across ? 0 : 1;
-        if (!dx_.rect.contains(x - u, y - v) || !dx_.rect.contains(x + u, y + v)) return {};
-        const float before = magnitude(x - u, y - v), behind = magnitude(x + u, y + v);
+        const Rect& rect = squares_.rect;
+        if (!rect.contains(x - u, y - v) || !rect.contains(x + u, y + v)) return {};
+        if (!(*squares_.at(x, y) > *squares_.at(x - u, y - v))) return {};
+        const float here = magnitude(x, y), before = magnitude(x - u, y - v),
+                    behind = magnitude(x + u, y + v);
         if (!(here > before && here >= behind)) return {};
         const float top = top_of(before, here, behind);
         return {x, y, across ? top : 0, across ? 0 : top, dy / here, -dx / here, here, 0};
     }
 
 private:
-    float magnitude(int x, int y) const {
-        return std::sqrt(dx_.at(x, y) * dx_.at(x, y) + dy_.at(x, y) * dy_.at(x, y));
+    static void square(const float* __restrict dx, const float* __restrict dy, std::size_t n,
+                       float* __restrict out) {
+        for (std::size_t i = 0; i < n; ++i) out[i] = dx[i] * dx[i] + dy[i] * dy[i];
     }
-    const Field &dx_, &dy_;
+    float magnitude(int x, int y) const { return std::sqrt(*squares_.at(x, y)); }
+
+    const View &dx_, &dy_;
+    MutView squares_;  // of magnitudes
+    float least_square_ = 0;
 };
 
 // Steger: across its direction of strongest bend a ridge has its top in the pixel.
@@ -67,10 +83,15 @@ public:
     static constexpr std::array kOrders{std::array{1, 0}, std::array{0, 1}, std::array{2, 0},
                                         std::array{1, 1}, std::array{0, 2}};
 
-    Ridges(std::span<const Field> fields, float sign) : fields_(fields), sign_(sign) {}
+    Ridges(std::span<const View> fields, float sign) : fields_(fields), sign_(sign) {}
+
+    template <class Take>
+    static void each(int /*y*/, int x0, int x1, const Take& take) {
+        for (int x = x0; x < x1; ++x) take(x);
+    }
 
     LinePoint at(int x, int y) const {
-        const auto value = [&](std::size_t i) { return sign_ * fields_[i].at(x, y); };
+        const auto value = [&](std::size_t i) { return sign_ * *fields_[i].at(x, y); };
         const float gx = value(0), gy = value(1), xx = value(2), xy = value(3), yy = value(4);
         const float half = (xx - yy) / 2, root = std::sqrt(half * half + xy * xy),
                     least = (xx + yy) / 2 - root;
@@ -90,7 +111,7 @@ public:
     }
 
 private:
-    std::span<const Field> fields_;
+    std::span<const View> fields_;
     float sign_;
 };
 
@@ -112,27 +133,24 @@ uint32_t owner_at(std::span<const View> ids, bool integers, int x, int y) {
     return owner;
 }
 
-void copy(const View& from, const Field& to) {
-    std::size_t i = 0;
-    for (int y = to.rect.y0; y < to.rect.y1; ++y)
-        for (int x = to.rect.x0; x < to.rect.x1; ++x) to.values[i++] = *from.at(x, y);
-}
-
 void put(Outputs out, const LinePoint& p, int x, int y) {
     const std::array values{p.strength, p.dx, p.dy, p.tx, p.ty, std::bit_cast<float>(p.owner)};
     for (std::size_t i = 0; i < values.size(); ++i) *out[i].at(x, y) = values[i];
 }
 
+// Where there is none, only the output that says so is written.
 template <class Kind>
-void find(const Kind& kind, std::span<const View> ids, bool integers, Outputs out) {
+void find(const Kind& kind, double least, std::span<const View> ids, bool integers, Outputs out) {
     const Rect& rect = out[0].rect;
-    for (int y = rect.y0; y < rect.y1; ++y)
-        for (int x = rect.x0; x < rect.x1; ++x) {
+    for (int y = rect.y0; y < rect.y1; ++y) {
+        std::fill_n(out[0].row(y), rect.width(), 0.0F);
+        kind.each(y, rect.x0, rect.x1, [&](int x) {
             LinePoint p = kind.at(x, y);
-            if (!std::isfinite(p.strength)) p = {};
-            if (p.strength > 0) p.owner = owner_at(ids, integers, x, y);
+            if (!(p.strength > 0) || !std::isfinite(p.strength) || double{p.strength} < least) return;
+            p.owner = owner_at(ids, integers, x, y);
             put(out, p, x, y);
-        }
+        });
+    }
 }
 
 }  // namespace
@@ -141,36 +159,37 @@ void FindLinePoints::compute(const Inputs& in, Outputs out, Scratch& scratch) co
     const std::span<const View> channels = in.slot(0), ids = in.slot(1);
     const Rect around = intersect(grow(out[0].rect, {1, 1}), channels[0].rect);
     const auto derive = [&](const auto& orders) {
-        std::vector<Field> fields;
+        std::vector<View> fields;
         for (const auto& [x, y] : orders) {
-            fields.push_back(empty_field(around, scratch));
-            field_.fill(channels[0], around, x, y, fields.back().values, scratch);
+            const MutView field = empty_field(around, scratch);
+            field_.fill(channels[0], around, x, y, {field.data, static_cast<std::size_t>(around.area())},
+                        scratch);
+            fields.emplace_back(field);
         }
         return fields;
     };
     if (channels.size() == 3) {
-        const std::array given{empty_field(around, scratch), empty_field(around, scratch)};
-        copy(channels[0], given[0]);
-        copy(channels[1], given[1]);
-        find(Edges(given), ids, integers_, out);
+        find(Edges(channels, around, least_, scratch), least_, ids, integers_, out);
     } else if (feature_ == LineFeature::kEdge) {
-        const std::vector<Field> fields = derive(Edges::kOrders);
-        find(Edges(fields), ids, integers_, out);
+        const std::vector<View> fields = derive(Edges::kOrders);
+        find(Edges(fields, around, least_, scratch), least_, ids, integers_, out);
     } else {
-        const std::vector<Field> fields = derive(Ridges::kOrders);
-        find(Ridges(fields, feature_ == LineFeature::kRidge ? 1.0F : -1.0F), ids, integers_, out);
+        const std::vector<View> fields = derive(Ridges::kOrders);
+        find(Ridges(fields, feature_ == LineFeature::kRidge ? 1.0F : -1.0F), least_, ids, integers_, out);
     }
 }
 
-std::vector<LinePoint> points_in(std::span<const View> outputs, const Rect& block, double least) {
+std::vector<LinePoint> points_in(std::span<const View> outputs, const Rect& block) {
     std::vector<LinePoint> out;
-    for (int y = block.y0; y < block.y1; ++y)
-        for (int x = block.x0; x < block.x1; ++x) {
-            const auto value = [&](std::size_t i) { return *outputs[i].at(x, y); };
-            if (!(value(0) > 0) || double{value(0)} < least) continue;
-            out.push_back(
-                {x, y, value(1), value(2), value(3), value(4), value(0), std::bit_cast<uint32_t>(value(5))});
-        }
+    for (int y = block.y0; y < block.y1; ++y) {
+        const auto add = [&](int i) {
+            const auto value = [&](std::size_t k) { return *outputs[k].at(block.x0 + i, y); };
+            out.push_back({block.x0 + i, y, value(1), value(2), value(3), value(4), value(0),
+                           std::bit_cast<uint32_t>(value(5))});
+        };
+        each_where(
+            outputs[0].at(block.x0, y), block.width(), [](float strength) { return strength > 0; }, add);
+    }
     return out;
 }
 

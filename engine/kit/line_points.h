@@ -26,14 +26,14 @@ struct LinePoint {
 
 enum class LineFeature { kEdge, kRidge, kValley };
 
-// At most one a pixel.  The first input is one channel; or dx, dy and magnitude, for edges, of a gradient
-// that was taken elsewhere.  The second, which may be missing, is the ids of objects, as find_object_ids()
-// has them.
+// At most one a pixel, with at least a strength.  The first input is one channel; or dx, dy and magnitude,
+// for edges, of a gradient that was taken elsewhere.  The second, which may be missing, is the ids of
+// objects, as find_object_ids() has them.
 class FindLinePoints final : public Operation {
 public:
     static constexpr int kOutputs = 6;
-    FindLinePoints(LineFeature feature, double sigma, bool integers)
-        : feature_(feature), field_(sigma), integers_(integers) {}
+    FindLinePoints(LineFeature feature, double sigma, bool integers, double least)
+        : feature_(feature), field_(sigma), integers_(integers), least_(least) {}
 
     Halo halo() const override { return {field_.reach() + 1, field_.reach() + 1}; }
     void compute(const Inputs& in, Outputs out, Scratch& scratch) const override;
@@ -43,9 +43,10 @@ private:
     LineFeature feature_;
     GaussianField field_;
     bool integers_;
+    double least_;
 };
 
-// Those of a block of the outputs with at least that strength, in row-major order.
-std::vector<LinePoint> points_in(std::span<const View> outputs, const Rect& block, double least);
+// Those of a block of the outputs, in row-major order.
+std::vector<LinePoint> points_in(std::span<const View> outputs, const Rect& block);
 
 }  // namespace keyline

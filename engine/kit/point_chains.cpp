@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -32,7 +33,17 @@ public:
         std::ranges::sort(points_, {}, order_of);
         best_.resize(points_.size());
         for (int i = 0; i < static_cast<int>(points_.size()); ++i)
-            for (const int side : {0, 1}) best_[index(i)][index(side)] = nearest({i, side});
+            while (rows_.size() <= index(of(i).y - of(0).y)) rows_.push_back(i);
+        std::array<Row, 2 * kAround + 1> around;
+        for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+            const LinePoint& p = of(i);
+            for (int k = -kAround; k <= kAround; ++k) {
+                Row& row = around[index(k + kAround)];
+                if (i == 0 || of(i - 1).y != p.y) row = row_at(p.y + k);
+                while (row.next < row.end && of(row.next).x < p.x - kAround) ++row.next;
+            }
+            for (const int side : {0, 1}) best_[index(i)][index(side)] = nearest({i, side}, around);
+        }
     }
 
     std::vector<PointChain> chains() {
@@ -51,22 +62,29 @@ private:
     const End& best(End e) const { return best_[index(e.point)][index(e.side)]; }
     const LinePoint& of(int i) const { return points_[index(i)]; }
 
+    // Points of a row, from the first that is not too far to the left.
+    struct Row {
+        int next = 0, end = 0;
+    };
+    Row row_at(int y) const {
+        const int row = y - of(0).y, rows = static_cast<int>(rows_.size());
+        if (row < 0 || row >= rows) return {};
+        return {rows_[index(row)], row + 1 < rows ? rows_[index(row + 1)] : static_cast<int>(points_.size())};
+    }
+
     // The nearest point on that side, of equally near ones the upper left; and the side on which it is
     // entered.
-    End nearest(End e) const {
+    End nearest(End e, std::span<const Row> around) const {
         End best;
         double least = kFarthest * kFarthest;
-        const LinePoint& p = of(e.point);
-        for (int y = p.y - kAround; y <= p.y + kAround; ++y) {
-            auto it = std::ranges::lower_bound(points_, std::tuple(y, p.x - kAround), {}, order_of);
-            for (; it != points_.end() && it->y == y && it->x <= p.x + kAround; ++it) {
-                const int i = static_cast<int>(it - points_.begin());
+        const int last = of(e.point).x + kAround;
+        for (const Row& row : around)
+            for (int i = row.next; i < row.end && of(i).x <= last; ++i) {
                 const auto [distance2, side] = way_to(e, i);
                 if (side < 0 || distance2 >= least) continue;
                 least = distance2;
                 best = {i, side};
             }
-        }
         return best;
     }
 
@@ -105,6 +123,7 @@ private:
 
     std::vector<LinePoint> points_;
     bool directed_;
+    std::vector<int> rows_;                 // the first point of each row, from the topmost's on
     std::vector<std::array<End, 2>> best_;  // by point and side
     std::vector<bool> seen_;
 };

@@ -107,7 +107,7 @@ struct LinkPoints {
 
     static State start(const Rect&) { return {}; }
     Partial map(const State&, const Inputs& in, const Rect& block, Scratch&) const {
-        std::vector<LinePoint> points = points_in(in.slot(0), block, style.low);
+        std::vector<LinePoint> points = points_in(in.slot(0), block);
         const StrokeIndex& there = in.datum<LinesThere>(1).index;
         std::erase_if(points, [&](const LinePoint& p) {
             const MapPoint at = place(p);
@@ -312,7 +312,7 @@ struct Trace {
             links[1] = {owner, ids.values};
         }
         const auto find =
-            std::make_shared<const FindLinePoints>(feature(), gradient ? 0 : params.sigma, ids.integers);
+            std::make_shared<const FindLinePoints>(feature(), gradient ? 0 : params.sigma, ids.integers, low);
         const Stream there = params.except
                                  ? add_operation(builder, FindLinesThere{}, {builder.input(*params.except)})
                                  : add_operation(builder, NoLinesThere{}, {});
