@@ -22,7 +22,7 @@ void add(LinePlaces& places, const Stroke& s, uint32_t index) {
     const std::size_t n = s.vertices.size();
     for (std::size_t i = 0; i + (s.closed ? 0 : 1) < n; ++i) {
         const StrokeVertex &a = s.vertices[i], &b = s.vertices[(i + 1) % n];
-        places.pieces.add(a.x, a.y, std::fabs(b.x - a.x) + std::fabs(b.y - a.y),
+        places.pieces.add(a.x, a.y, b.x - a.x, b.y - a.y,
                           {index, between(a.x, b.x), between(a.y, b.y), between(a.u, i + 1 < n ? b.u : 1),
                            between(a.width, b.width), between_depths(a.depth, b.depth)});
         places.widest = std::max({places.widest, a.width, b.width});

@@ -5,7 +5,6 @@
 #include "engine/kit/by_place.h"
 #include "engine/kit/strokes.h"
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -36,7 +35,8 @@ public:
     const StrokeVertex& to(const Piece& p) const { return strokes_[p.stroke].vertices[p.to]; }
     const Stroke& of(const Piece& p) const { return strokes_[p.stroke]; }
 
-    // visit(piece) of all that may be within `reach` of a place, in an order that only depends on them.
+    // visit(piece) of all that may be within `reach` of a place, some more than once, in an order that only
+    // depends on them.
     template <class Visit>
     void near(double x, double y, double reach, const Visit& visit) const {
         pieces_.any_near(x, y, reach, [&](const Piece& piece) { return visit(piece), false; });
@@ -45,7 +45,7 @@ public:
 private:
     void add(const Piece& piece) {
         const StrokeVertex &a = from(piece), &b = to(piece);
-        pieces_.add(a.x, a.y, std::fabs(b.x - a.x) + std::fabs(b.y - a.y), piece);
+        pieces_.add(a.x, a.y, b.x - a.x, b.y - a.y, piece);
     }
 
     const std::vector<Stroke>& strokes_;

@@ -27,7 +27,7 @@ void StrokeIndex::add(const Stroke& stroke) {
                           !stroke.closed && i == 0,
                           !stroke.closed && i + 2 == v.size(),
                           strokes_};
-        pieces_.add(piece.x, piece.y, std::fabs(piece.dx) + std::fabs(piece.dy), piece);
+        pieces_.add(piece.x, piece.y, piece.dx, piece.dy, piece);
     }
     ++strokes_;
 }

@@ -173,6 +173,7 @@ private:
             factor *= std::clamp(elementary::pow(d.reference / v.depth, d.power), d.range[0], d.range[1]);
         }
         factor *= std::max(0.0, 1 + params.by_curvature * std::min(1.0, std::fabs(v.curvature) * 10 * unit));
+        if (params.by_angle[0] == params.by_angle[1]) return factor * params.by_angle[0];
         const double cosine = elementary::sin_cos_degrees(v.sharpness).cos;
         factor *= params.by_angle[0] + (params.by_angle[1] - params.by_angle[0]) / 2 * (1 - cosine);
         return factor;
@@ -186,27 +187,32 @@ private:
 
     // The mean over a length along the stroke, what is near counting more.
     static void even_out(Stroke& s, double length) {
-        if (!(length > 0)) return;
-        const std::vector<StrokeVertex> before = s.vertices;
-        const auto n = static_cast<std::ptrdiff_t>(before.size());
+        const std::vector<StrokeVertex>& v = s.vertices;
+        if (!(length > 0) || v.empty()) return;
+        const std::size_t n = v.size(), round = s.closed ? n - 1 : 0;
+        // Of a closed stroke there is each vertex once more, before the first and behind the last.
+        std::vector<double> widths, arcs;
         const double whole = length_of(s);
-        // The width at `steps` from i, and how far that is; past the ends there is none.
-        const auto add = [&](std::ptrdiff_t i, std::ptrdiff_t step, double& sum, double& weights) {
-            for (std::ptrdiff_t k = step; k > -n && k < n; k += step) {
-                if (!s.closed && (i + k < 0 || i + k >= n)) return;
-                const StrokeVertex& v = before[static_cast<std::size_t>((i + k + n) % n)];
-                double far = std::fabs(v.arc - before[static_cast<std::size_t>(i)].arc);
-                if (i + k < 0 || i + k >= n) far = whole - far;
-                if (far >= length) return;
-                sum += (1 - far / length) * v.width;
+        for (std::size_t i = 0; i < n + 2 * round; ++i) {
+            const std::size_t k = (i + n - round) % n;
+            widths.push_back(v[k].width);
+            arcs.push_back(v[k].arc);
+        }
+        for (std::size_t i = round; i < round + n; ++i) {
+            double sum = widths[i], weights = 1;
+            const auto add = [&](std::size_t k) {
+                double far = std::fabs(arcs[k] - arcs[i]);
+                if (k < round || k >= round + n) far = whole - far;
+                if (far >= length) return false;
+                sum += (1 - far / length) * widths[k];
                 weights += 1 - far / length;
+                return true;
+            };
+            for (std::size_t k = i; k-- > i - std::min(i, n - 1) && add(k);) {
             }
-        };
-        for (std::ptrdiff_t i = 0; i < n; ++i) {
-            double sum = before[static_cast<std::size_t>(i)].width, weights = 1;
-            add(i, -1, sum, weights);
-            add(i, 1, sum, weights);
-            s.vertices[static_cast<std::size_t>(i)].width = sum / weights;
+            for (std::size_t k = i + 1; k < std::min(widths.size(), i + n) && add(k); ++k) {
+            }
+            s.vertices[i - round].width = sum / weights;
         }
     }
 };
