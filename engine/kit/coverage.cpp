@@ -96,24 +96,13 @@ public:
     explicit Cluster(Cells& cells) : cells_(cells) {}
 
     // The borders of what is covered go to the cells.  Returns the winding on the right.
-    int add(std::span<Edge> edges, int winding) {
+    int add(std::span<const Edge> edges, int winding) {
         if (winding == 0)
             for (const int into : {1, -1})
                 if (is_simple(edges, into)) return add_whole(edges, winding, into);
         if (std::abs(winding) == 1 && is_simple(edges, -winding)) return add_whole(edges, winding, winding);
-        left_ = winding;
-        find_heights(edges);
-        std::ranges::sort(edges, {}, &Edge::y0);
-        active_.clear();
-        auto next = edges.begin();
-        for (std::size_t i = 1; i < heights_.size(); ++i) {
-            const int64_t top = heights_[i - 1], bottom = heights_[i];
-            std::erase_if(active_, [&](const Edge& e) { return e.y1 < bottom; });
-            for (; next != edges.end() && next->y0 <= top; ++next)
-                if (next->y1 >= bottom) active_.push_back(*next);
-            winding = add_between(top, bottom);
-        }
-        return winding;
+        for (const Edge& e : edges) add_part(e, 0, kOne);
+        return add_parts(0, 0, kOne, winding);
     }
 
 private:
@@ -167,26 +156,77 @@ private:
         return winding + static_cast<int>(height / kOne);
     }
 
-    void find_heights(std::span<const Edge> edges) {
-        heights_.clear();
-        for (const Edge& e : edges) heights_.insert(heights_.end(), {e.y0, e.y1});
-        std::ranges::sort(heights_);
-        heights_.erase(std::unique(heights_.begin(), heights_.end()), heights_.end());
+    // All parts from `first` on, which lie between `top` and `bottom`; takes them away.  What hangs together
+    // there is added by itself, so that edges are cut where others end or cross that they have to do with,
+    // and not where any do.
+    int add_parts(std::size_t first, int64_t top, int64_t bottom, int winding) {
+        std::ranges::sort(parts_.begin() + static_cast<std::ptrdiff_t>(first), parts_.end(), {},
+                          [](const Edge& e) { return std::min(e.x0, e.x1); });
+        const std::size_t end = parts_.size();
+        for (std::size_t i = first; i < end;) {
+            const std::size_t begin = i;
+            int64_t right = std::max(parts_[i].x0, parts_[i].x1);
+            for (++i; i < end && std::min(parts_[i].x0, parts_[i].x1) <= right; ++i)
+                right = std::max({right, parts_[i].x0, parts_[i].x1});
+            winding = add_group(begin, i, top, bottom, winding);
+        }
+        parts_.resize(first);
+        return winding;
     }
 
-    // No edge ends between the heights.  Where some cross, they are parted until they don't, or all is flat.
-    int add_between(int64_t top, int64_t bottom) {
-        parts_.clear();
-        for (const Edge& e : active_) parts_.push_back(e.part(top, bottom));
-        std::ranges::sort(parts_, {}, [](const Edge& e) { return std::tuple(e.x0 + e.x1, e.x0, e.sign); });
-        const auto cross = [](const Edge& a, const Edge& b) { return a.x0 > b.x0 || a.x1 > b.x1; };
-        if (bottom - top > 1 && std::ranges::adjacent_find(parts_, cross) != parts_.end()) {
-            const int64_t middle = (top + bottom) / 2;
-            add_between(top, middle);
-            return add_between(middle, bottom);
+    int add_group(std::size_t begin, std::size_t end, int64_t top, int64_t bottom, int winding) {
+        const std::span<Edge> group(&parts_[begin], end - begin);
+        int64_t height = 0;
+        int back = 0;  // edges that lead towards what is not covered
+        for (const Edge& e : group) {
+            height += e.sign * (e.y1 - e.y0);
+            if (e.sign * winding < 0) ++back;
         }
-        int winding = left_;
-        for (const Edge& e : parts_) {
+        if (std::abs(winding) <= back) {
+            if (const int64_t cut = find_cut(group, top, bottom); cut < bottom) {
+                const std::size_t first = parts_.size();
+                for (std::size_t i = begin; i < end; ++i) add_part(parts_[i], top, cut);
+                add_parts(first, top, cut, winding);
+                for (std::size_t i = begin; i < end; ++i) add_part(parts_[i], cut, bottom);
+                return add_parts(first, cut, bottom, winding);
+            }
+            add_borders(group, winding);
+        }
+        return winding + static_cast<int>(height / (bottom - top));
+    }
+
+    // A height between, at which some edge ends, the nearest to the middle; where none does, one at which two
+    // cross; `bottom` where the edges just stand side by side, or all is flat.
+    static int64_t find_cut(std::span<Edge> group, int64_t top, int64_t bottom) {
+        int64_t cut = bottom, least = bottom - top;
+        for (const Edge& e : group)
+            for (const int64_t y : {e.y0, e.y1})
+                if (const int64_t off = std::abs(2 * y - top - bottom); off < least) {
+                    cut = y;
+                    least = off;
+                }
+        if (cut < bottom) return cut;
+        std::ranges::sort(group, {}, [](const Edge& e) { return std::tuple(e.x0 + e.x1, e.x0, e.sign); });
+        for (std::size_t i = 1; bottom - top > 1 && i < group.size(); ++i) {
+            const int64_t above = group[i].x0 - group[i - 1].x0, below = group[i].x1 - group[i - 1].x1;
+            if (above < 0 || below < 0)
+                return std::clamp(between(top, bottom, 0, std::abs(above) + std::abs(below), std::abs(above)),
+                                  top + 1, bottom - 1);
+        }
+        return bottom;
+    }
+
+    // What is level at the top or the bottom parts nothing.
+    void add_part(const Edge& e, int64_t top, int64_t bottom) {
+        const int64_t from = std::max(e.y0, top), to = std::min(e.y1, bottom);
+        if (from < to)
+            parts_.push_back(e.part(from, to));
+        else if (e.is_level() && top < e.y0 && e.y0 < bottom)
+            parts_.push_back(e);
+    }
+
+    void add_borders(std::span<const Edge> side_by_side, int winding) {
+        for (const Edge& e : side_by_side) {
             const bool covered = winding != 0;
             winding += e.sign;
             if (covered == (winding != 0)) continue;
@@ -194,15 +234,12 @@ private:
             border.sign = covered ? -1 : 1;
             cells_.add(border);
         }
-        return winding;
     }
 
-    static constexpr std::size_t kFew = 128;
+    static constexpr std::size_t kFew = 16;
 
     Cells& cells_;
-    int left_ = 0;  // the winding there
-    std::vector<int64_t> heights_;
-    std::vector<Edge> active_, parts_;
+    std::vector<Edge> parts_;  // a stack
 };
 
 class Filler {
@@ -213,11 +250,13 @@ public:
     Coverage fill(const std::vector<Loop>& loops) {
         for (const Loop& loop : loops)
             for (std::size_t i = 0; i < loop.size(); ++i) split(loop[i], loop[(i + 1) % loop.size()]);
-        std::ranges::sort(pieces_, {}, [](const Piece& p) { return std::tuple(p.y, p.left); });
+        order_by_rows();
         for (std::size_t i = 0; i < pieces_.size();) {
             std::size_t end = i;
             while (end < pieces_.size() && pieces_[end].y == pieces_[i].y) ++end;
-            fill_row(std::span(pieces_).subspan(i, end - i));
+            const std::span row = std::span(pieces_).subspan(i, end - i);
+            std::ranges::sort(row, {}, &Piece::left);
+            fill_row(row);
             i = end;
         }
         return std::move(out_);
@@ -246,7 +285,8 @@ private:
 
     // Beside the window only the winding counts: there an edge stands upright.
     void clip(int64_t y, const Edge& e) {
-        if (e.is_level()) return add(y, e);
+        const auto [left, right] = std::minmax(e.x0, e.x1);
+        if (e.is_level() || (left >= least_ && right < most_)) return add(y, e);
         std::array<int64_t, 4> heights{e.y0, e.y0, e.y0, e.y1};
         if ((e.x0 < least_) != (e.x1 < least_)) heights[1] = between(e.y0, e.y1, e.x0, e.x1, least_);
         if ((e.x0 < most_) != (e.x1 < most_)) heights[2] = between(e.y0, e.y1, e.x0, e.x1, most_);
@@ -259,6 +299,17 @@ private:
         e.x0 = std::clamp(e.x0, least_, most_);
         e.x1 = std::clamp(e.x1, least_, most_);
         pieces_.push_back({y, e.left(), e});
+    }
+
+    void order_by_rows() {
+        if (pieces_.empty()) return;
+        const auto [top, bottom] = std::ranges::minmax(pieces_, {}, &Piece::y);
+        std::vector<std::size_t> next(static_cast<std::size_t>(bottom.y - top.y) + 2);
+        for (const Piece& p : pieces_) ++next[static_cast<std::size_t>(p.y - top.y) + 1];
+        for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+        std::vector<Piece> ordered(pieces_.size());
+        for (const Piece& p : pieces_) ordered[next[static_cast<std::size_t>(p.y - top.y)]++] = p;
+        pieces_ = std::move(ordered);
     }
 
     void fill_row(std::span<const Piece> row) {

@@ -170,8 +170,7 @@ private:
             left_.point(disc.centre + disc.radius / 2 * (before.left + after.left));
             return;
         }
-        if (shorter >= disc.radius && dot(before.along, after.along) > kSharpest)
-            return turn_at(disc, before, after);
+        if (dot(before.along, after.along) > kSharpest) return turn_at(disc, before, after);
         right_.point(disc.centre + disc.radius * before.right);
         left_.point(disc.centre + disc.radius * before.left);
         right_.point(disc.centre);
@@ -181,15 +180,18 @@ private:
         add_disc(disc);
     }
 
-    // Both segments cover the disc but for the wedge on the outside of the turn.
+    // Both segments cover the disc but for the wedge on a side where they gape; and for what of it lies
+    // behind all of a short segment, which is nearer to the disc before and so in that, and so on.
     void turn_at(const Disc& disc, const Segment& before, const Segment& after) {
-        const bool to_right = dot(turned(before.along), after.along) > 0;
-        Pen &outer = to_right ? left_ : right_, &inner = to_right ? right_ : left_;
-        const auto side = [&](const Segment& s, bool right) { return right ? s.right : s.left; };
-        outer.arc(disc, side(before, !to_right), side(after, !to_right));
-        inner.point(disc.centre + disc.radius * side(before, to_right));
-        inner.point(disc.centre);
-        inner.point(disc.centre + disc.radius * side(after, to_right));
+        turn_side(right_, disc, before.right, after.right, dot(turned(before.right), after.right) < 0);
+        turn_side(left_, disc, before.left, after.left, dot(turned(before.left), after.left) > 0);
+    }
+
+    static void turn_side(Pen& pen, const Disc& disc, Vector from, Vector to, bool gapes) {
+        if (gapes) return pen.arc(disc, from, to);
+        pen.point(disc.centre + disc.radius * from);
+        pen.point(disc.centre);
+        pen.point(disc.centre + disc.radius * to);
     }
 
     // One point may stand for the arc, and both segments' sides keep their directions.

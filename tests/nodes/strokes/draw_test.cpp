@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <gmock/gmock.h>
+#include <random>
 
 namespace keyline::testing {
 namespace {
@@ -50,17 +51,20 @@ std::vector<double> sampled_row(const std::vector<Loop>& loops, const Rect& wind
     return out;
 }
 
-// The share of 8 × 8 samples of a pixel that lie within half the width of the way of an even stroke.
+// The share of 8 × 8 samples of a pixel that lie in one of the discs along the way of a stroke.
 double sampled_discs(const Stroke& s, int x, int y) {
     constexpr int kSamples = 8;
     const std::size_t n = s.vertices.size();
-    const double radius = s.vertices[0].width / 2;
     const auto is_in = [&](double px, double py) {
         for (std::size_t i = 0; i + (s.closed ? 0 : 1) < n; ++i) {
             const StrokeVertex &a = s.vertices[i], &b = s.vertices[(i + 1) % n];
-            const double dx = b.x - a.x, dy = b.y - a.y;
-            const double t = std::clamp(((px - a.x) * dx + (py - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-            if (std::hypot(a.x + t * dx - px, a.y + t * dy - py) <= radius) return true;
+            const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
+            const double slope = std::clamp((b.width - a.width) / 2 / length, -0.99, 0.99);
+            const double off = std::fabs((px - a.x) * dy - (py - a.y) * dx) / length;
+            const double foot =
+                ((px - a.x) * dx + (py - a.y) * dy) / length + off * slope / std::sqrt(1 - slope * slope);
+            const double along = std::clamp(foot, 0.0, length), t = along / length;
+            if (std::hypot(a.x + t * dx - px, a.y + t * dy - py) <= a.width / 2 + slope * along) return true;
         }
         return false;
     };
@@ -122,6 +126,29 @@ TEST(DrawStrokes, CoversTheDiscsAlongTheWay) {
         for (int y = kFrame.y0; y < kFrame.y1; ++y)
             for (int x = kFrame.x0; x < kFrame.x1; ++x)
                 ASSERT_NEAR(image.at("A", x, y), sampled_discs(s, x, y), 0.08) << x << ' ' << y;
+    }
+}
+
+TEST(DrawStrokes, CoversTheDiscsOfShortPiecesThatSwellAndTurn) {
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        std::mt19937 random(seed);
+        const auto any = [&](double from, double to) {
+            return from + (to - from) * static_cast<double>(random() % 1000) / 1000;
+        };
+        Stroke s = stroke({{12.3, 18.6}}, 0.4);
+        double way = any(0, 6);
+        for (int i = 0; i < 14; ++i, way += any(-1, 1)) {
+            StrokeVertex v = s.vertices.back();
+            const double length = any(0.6, 1.4);
+            v.x += length * std::cos(way);
+            v.y += length * std::sin(way);
+            v.width = std::max(0.3, v.width + length * any(-1.4, 1.6));
+            s.vertices.push_back(v);
+        }
+        const Image image = draw_strokes("draw", {}, strokes_in(kFrame, {s}));
+        for (int y = kFrame.y0; y < kFrame.y1; ++y)
+            for (int x = kFrame.x0; x < kFrame.x1; ++x)
+                ASSERT_NEAR(image.at("A", x, y), sampled_discs(s, x, y), 0.1) << seed << ' ' << x << ' ' << y;
     }
 }
 
