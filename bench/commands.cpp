@@ -30,6 +30,12 @@ Command oiiotool_read(const Plate& plate, int threads) {
 
 Command oiiotool_write(const fs::path& out) { return words("-d half --compression zip -o") + Command{out}; }
 
+Command render(const std::string& graph, const fs::path& plate, const fs::path& out, int threads) {
+    return Command{programs() / "keyline", "render", kSources / graph} +
+           Command{"--var", "plate=" + plate.string(), "--var", "out=" + out.string()} +
+           words(fmt::format("--threads {} --progress none", threads));
+}
+
 // It has no gradient, no thinning and no hysteresis: a threshold on the Laplacian stands for them.
 Command oiiotool_lines() {
     return words(
@@ -70,13 +76,20 @@ fs::path programs() {
 }
 
 Command keyline_job(const fs::path& plate, const fs::path& out, int threads, const Command& more) {
-    return Command{programs() / "keyline", "render", kSources / "lines.json"} +
-           Command{"--var", "plate=" + plate.string(), "--var", "out=" + out.string()} +
-           words(fmt::format("--threads {} --progress none", threads)) + more;
+    return render("lines.json", plate, out, threads) + more;
+}
+
+Command keyline_toon(const fs::path& plate, const fs::path& out, int threads) {
+    return render("toon.json", plate, out, threads);
 }
 
 Command openexr_copy(const fs::path& plate, const fs::path& out, int threads) {
     return {programs() / "bench_exr_copy", plate, "ViewLayer.Combined", out, std::to_string(threads)};
+}
+
+Command openexr_copy_of_toon(const fs::path& plate, const fs::path& out, int threads) {
+    return openexr_copy(plate, out, threads) +
+           words("ViewLayer.DiffCol ViewLayer.Normal ViewLayer.Depth ViewLayer.CryptoObject00");
 }
 
 Command mosaic(const fs::path& plate, int n, const fs::path& out) {

@@ -27,8 +27,15 @@ std::filesystem::path programs();
 Command keyline_job(const std::filesystem::path& plate, const std::filesystem::path& out, int threads,
                     const Command& more = {});
 
+// The same of bench/toon.json: tones under strokes.
+Command keyline_toon(const std::filesystem::path& plate, const std::filesystem::path& out, int threads);
+
 // OpenEXR's own library: reads the beauty pass, writes it, computes nothing.
 Command openexr_copy(const std::filesystem::path& plate, const std::filesystem::path& out, int threads);
+
+// The same, and reads the other channels that toon.json does.
+Command openexr_copy_of_toon(const std::filesystem::path& plate, const std::filesystem::path& out,
+                             int threads);
 
 // N × N copies of a plate.
 Command mosaic(const std::filesystem::path& plate, int n, const std::filesystem::path& out);

@@ -58,6 +58,7 @@ public:
         sequence("small", small_);
         const Plate uhd = large(2);
         job(uhd);
+        toon(uhd);
         threads(uhd);
         sigma(uhd);
         sizes({small_, hd_, uhd, large(3), large(4)});
@@ -102,6 +103,16 @@ private:
             jobs.push_back({peer.name, 0, peer.command});
         }
         in_turn("job", jobs, rounds_);
+    }
+
+    void toon(const Plate& plate) {
+        std::vector<Job> jobs;
+        for (int n = 1; n <= threads_; n *= 2) {
+            jobs.push_back(
+                {"OpenEXR read + write", double(n), openexr_copy_of_toon(plate.file, out("copy"), n)});
+            jobs.push_back({"Keyline", double(n), keyline_toon(plate.file, out("toon"), n)});
+        }
+        in_turn("toon", jobs, rounds_);
     }
 
     void threads(const Plate& plate) {

@@ -22,7 +22,7 @@ namespace keyline::bench {
 namespace {
 
 struct Pictures {
-    Picture beauty, grey, mask;
+    Picture beauty, grey, mask, passes;
 };
 
 std::size_t index_of(const Picture& picture, int x, int y) {
@@ -130,6 +130,26 @@ void add_dilations(const Pictures& pictures) {
         }
 }
 
+// From passes to a drawing, on one thread.
+void add_strokes(const Picture& passes) {
+    const std::string nodes = R"(
+        "objects": {"type": "contours", "in": "a", "layer": "CryptoObject", "depth": "a:Depth"},
+        "turn": {"type": "gradient", "in": "a:Normal", "operator": "sobel"},
+        "creases": {"type": "trace", "in": "turn", "low": 0.15, "high": 0.4, "owner": "a",
+                    "layer": "CryptoObject", "except": "objects"},
+        "lines": {"type": "chain", "in": ["objects", "creases"]},
+        "calm": {"type": "smooth", "in": "lines"},
+        "wide": {"type": "weight", "in": "calm", "width": 4},
+        "result": {"type": "draw", "in": "wide"})";
+    benchmark::RegisterBenchmark(
+        "contours, gradient, trace, chain, smooth, weight, draw",
+        [nodes, &passes](benchmark::State& state) { time_graph(state, nodes, passes); })
+        ->ArgName("threads")
+        ->Arg(1)
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+}
+
 void add_point_nodes(const Pictures& pictures) {
     add("over", R"("result": {"type": "over", "fg": "a", "bg": "b"})", pictures.beauty);
     add("grade", node("grade", R"("multiply": 1.5, "add": 0.1)"), pictures.beauty);
@@ -149,6 +169,7 @@ int run(int argc, char** argv) {
     pictures.beauty = read_beauty(argv[1]);
     pictures.grey = grey_of(pictures.beauty);
     pictures.mask = mask_of(pictures.grey, 0.5F);
+    pictures.passes = read_passes(argv[1]);
     argv[1] = argv[0];
     --argc;
     ++argv;
@@ -164,6 +185,7 @@ int run(int argc, char** argv) {
         "a spiral", weak_where(width, height, [&](int x, int y) { return on_spiral(x, y, width, height); }));
     add_dilations(pictures);
     add_point_nodes(pictures);
+    add_strokes(pictures.passes);
     benchmark::RunSpecifiedBenchmarks();
     return 0;
 }

@@ -9,18 +9,36 @@
 
 namespace keyline::bench {
 
-Picture read_beauty(const std::string& file) {
+namespace {
+
+// Channels of the layer ViewLayer, by their names without it.
+Picture read_channels(const std::string& file, const std::vector<std::string>& in_file,
+                      const std::vector<std::string>& names) {
     Imf::InputFile in(file.c_str());
     const auto window = in.header().dataWindow();
-    Picture picture(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {"R", "G", "B", "A"});
+    Picture picture(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, names);
     Imf::FrameBuffer buffer;
-    for (std::size_t c = 0; c < picture.channels.size(); ++c)
-        buffer.insert("ViewLayer.Combined." + picture.channels[c],
+    for (std::size_t c = 0; c < names.size(); ++c)
+        buffer.insert("ViewLayer." + in_file[c],
                       Imf::Slice::Make(Imf::FLOAT, picture.planes[c].data(), window, sizeof(float),
                                        sizeof(float) * static_cast<std::size_t>(picture.width)));
     in.setFrameBuffer(buffer);
     in.readPixels(window.min.y, window.max.y);
     return picture;
+}
+
+}  // namespace
+
+Picture read_beauty(const std::string& file) {
+    return read_channels(file, {"Combined.R", "Combined.G", "Combined.B", "Combined.A"},
+                         {"R", "G", "B", "A"});
+}
+
+Picture read_passes(const std::string& file) {
+    const std::vector<std::string> names{"CryptoObject00.r", "CryptoObject00.g", "CryptoObject00.b",
+                                         "CryptoObject00.a", "Depth.Z",          "Normal.X",
+                                         "Normal.Y",         "Normal.Z"};
+    return read_channels(file, names, names);
 }
 
 Picture grey_of(const Picture& beauty) {

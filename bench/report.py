@@ -62,6 +62,14 @@ def job_table(runs):
                   for key in runs.of("job") for what in [key[1]]])
 
 
+def toon_table(runs):
+    return table(["the toon job at 4K, threads", "Keyline", "peak memory", OPENEXR, "peak memory"],
+                 [[f"{x:g}", *(text for what in (KEYLINE, OPENEXR)
+                               for text in (seconds(runs.seconds("toon", what, x)),
+                                            f"{runs.mib('toon', what, x):.0f} MiB"))]
+                  for x in sorted({x for _, _, x in runs.of("toon")})])
+
+
 def size_table(runs):
     sizes = sorted({x for _, _, x in runs.of("size")})
     names = list(dict.fromkeys(what for _, what, _ in runs.of("size")))
@@ -102,7 +110,7 @@ def kernel_table(runs):
 def report(runs, keyline, plate):
     parts = [circumstances(keyline, plate),
              table(["#", "what", "measured", "least – most", "target", ""], [t.row() for t in targets(runs)]),
-             job_table(runs), threads_table(runs), size_table(runs), sigma_table(runs), small_table(runs),
+             job_table(runs), toon_table(runs), threads_table(runs), size_table(runs), sigma_table(runs), small_table(runs),
              kernel_table(runs)]
     return "\n\n".join("\n".join(part) for part in parts)
 

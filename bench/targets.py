@@ -1,11 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The Keyline Authors
 # SPDX-License-Identifier: Apache-2.0
-"""The eight targets: what each is, and how it stands."""
+"""The targets: what each is, and how it stands."""
 
 from dataclasses import dataclass, field
 from statistics import median
 
 KEYLINE, OPENEXR = "Keyline", "OpenEXR read + write"
+STROKES = "contours, gradient, trace, chain, smooth, weight, draw"
 HD, UHD2 = 1920.0 * 1080, 7680.0 * 4320
 
 
@@ -81,6 +82,16 @@ def _dilations(runs):
                                  ("kernel", f"dilate {name} 2{mask}", 1.0)))
 
 
+def _strokes(runs):
+    key = ("kernel", STROKES, 1.0)
+    yield Target(9, f"from passes in memory to a drawing, 4K, one thread: {STROKES}", [150],
+                 [1e3 * s for s in runs.all_seconds(*key)] if runs.has(*key) else [], unit=" ms")
+    for threads in sorted(x for _, what, x in runs.of("toon") if what == KEYLINE):
+        yield Target(10, f"the toon job with strokes at 4K, against OpenEXR's read + write, {threads:g} "
+                         f"thread{'s' if threads > 1 else ''}", [0.6, 0.5],
+                     _ratios(runs, ("toon", KEYLINE, threads), ("toon", OPENEXR, threads)))
+
+
 def targets(runs):
     return [
         Target(1, "the job at 4K, against OpenEXR's read + write", [0.6, 0.5],
@@ -97,4 +108,5 @@ def targets(runs):
         Target(7, "`keyline check` of a small graph", [30],
                [1e3 * s for s in runs.all_seconds("check", "a graph of OpenEXR files", 0.0)], unit=" ms"),
         *_dilations(runs),
+        *_strokes(runs),
     ]
