@@ -102,7 +102,7 @@ TEST_F(Documents, TheCookbooksCommandsWork) {
     expect_that_commands_work(read(fs::path(KEYLINE_DOCS) / "cookbook.md"));
 }
 
-TEST_F(Documents, TheCookbooksGraphsAreSoundAndLaidOut) {
+TEST_F(Documents, TheCookbooksGraphsAreSoundAndLaidOutAndRender) {
     std::size_t graphs = 0;
     for (const Block& block : blocks_in(read(fs::path(KEYLINE_DOCS) / "cookbook.md"))) {
         if (!block.text.starts_with("{\n  \"keyline\"")) continue;
@@ -111,9 +111,26 @@ TEST_F(Documents, TheCookbooksGraphsAreSoundAndLaidOut) {
         EXPECT_EQ(run.status, 0) << run.err << block.text;
         EXPECT_EQ(run.err.find("warning:"), std::string::npos) << run.err << block.text;
         EXPECT_EQ(keyline({"fmt", "--check", "graphs/task.json"}).status, 0) << block.text;
+        const Outcome made = keyline({"render", "graphs/task.json", "--frames", "all"});
+        EXPECT_EQ(made.status, 0) << made.err << block.text;
         ++graphs;
     }
-    EXPECT_GE(graphs, 13U);
+    EXPECT_GE(graphs, 26U);
+}
+
+// Thirty tasks, each in the words of two other programs, and with its time.
+TEST_F(Documents, TheCookbooksTasksAreToldInOtherProgramsWordsAndTimed) {
+    const std::string page = read(fs::path(KEYLINE_DOCS) / "cookbook.md");
+    const std::regex section(R"(\n### (.+)\n)");
+    std::size_t tasks = 0;
+    for (auto s = std::sregex_iterator(page.begin(), page.end(), section); s != std::sregex_iterator(); ++s) {
+        const std::string text = s->suffix().str().substr(0, s->suffix().str().find("\n### "));
+        if (text.find("*Nuke*") == std::string::npos) continue;
+        EXPECT_NE(text.find("*Blender*"), std::string::npos) << s->str(1);
+        EXPECT_NE(page.find("| " + s->str(1) + " | "), std::string::npos) << s->str(1) << " has no time";
+        ++tasks;
+    }
+    EXPECT_GE(tasks, 30U);
 }
 
 // Its graph finds the lines that its commands then measure.
