@@ -129,7 +129,7 @@ private:
 class MarkdownText {
 public:
     void node(const NodeType& type) {
-        out_ += fmt::format("\n### {}\n\n{} ({})\n", type.name, type.help, kind_text(type));
+        out_ += fmt::format("\n### {}\n\n{} ({})\n", type.name, sentence(type.help), kind_text(type));
         if (!type.fields.empty()) out_ += "\n| name | type | default | |\n| --- | --- | --- | --- |\n";
         for (const FieldInfo& f : type.fields) row(f, "");
         if (const std::string outputs = outputs_text(type); !outputs.empty())
@@ -156,7 +156,7 @@ private:
                                       ? "–"
                                       : fmt::format("`{}`", json_of(f.default_value));
         out_ += fmt::format("| `{}` | {} | {} | {} |\n", name, cell(type_text(f.type)), shown,
-                            cell(f.help + words(f.type)));
+                            cell(sentence(f.help) + words(f.type)));
         nested(f.type, name);
     }
 
@@ -169,9 +169,15 @@ private:
     static std::string words(const TypeInfo& type) {
         std::string out;
         for (const TypeInfo::WordInfo& w : type.words)
-            out += fmt::format("{}`\"{}\"`: {}", out.empty() ? " " : "; ", w.word, w.help);
+            out += fmt::format("{}`\"{}\"`{}", out.empty() ? " " : "; ", w.word,
+                               w.help.empty() ? "" : ": " + w.help);
         for (const TypeInfo& item : type.items) out += words(item);
-        return out.empty() || out.ends_with('.') ? out : out + ".";
+        return sentence(out);
+    }
+
+    // Authors of groups may leave out the point.
+    static std::string sentence(const std::string& text) {
+        return text.empty() || text.ends_with('.') ? text : text + '.';
     }
 
     std::string out_;
