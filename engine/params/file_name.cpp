@@ -93,6 +93,9 @@ private:
         if (all_.starts_with('~'))
             refuse(name() + " starts with '~', which is nobody's folder here",
                    "write ${env:HOME}, or ./~ for what is called so");
+        if (all_.find("<UDIM>") != std::string_view::npos)
+            refuse(name() + " holds <UDIM>, the tiles of a texture",
+                   "a file is one picture here: write a tile's number");
         const bool has_drive =
             all_.size() > 2 && is_letter(all_[0]) && all_[1] == ':' && (all_[2] == '\\' || all_[2] == '/');
         if (has_drive || all_.starts_with("\\\\"))

@@ -89,6 +89,7 @@ TEST(FileName, TellsWhatOtherProgramsAndSystemsWrite) {
              {"a.%V.exr", "holds %V for a view"},
              {"a_%v.exr", "holds %v for a view"},
              {"D:\\a\\b.exr", "one of Windows"},
+             {"wall.<UDIM>.exr", "holds <UDIM>, the tiles of a texture; a file is one picture here"},
              {"D:/a/b.exr", "one of Windows"},
              {"\\\\server\\a.exr", "one of Windows"},
              {"a\\b.exr", "folders are parted by '/'"},

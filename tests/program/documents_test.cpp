@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/program/program.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
@@ -13,17 +13,22 @@ namespace keyline::test {
 
 namespace {
 
+std::vector<std::string> words_of(const std::string& command) {
+    std::istringstream words(command);
+    std::vector<std::string> out;
+    for (std::string word; words >> word;) out.push_back(word);
+    return out;
+}
+
 // Lines of a document that are a command of Keyline's, as its arguments.
 std::vector<std::vector<std::string>> commands_in(const std::string& text) {
+    const std::string_view program = "    keyline ";
     std::vector<std::vector<std::string>> commands;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
-        if (!line.starts_with("    keyline ")) continue;
+        if (!line.starts_with(program)) continue;
         std::erase(line, '\'');  // a shell's; no argument holds blanks
-        std::istringstream words(line.substr(0, line.find('#')));
-        std::vector<std::string> arguments;
-        for (std::string word; words >> word;) arguments.push_back(word);
-        commands.emplace_back(arguments.begin() + 1, arguments.end());
+        commands.push_back(words_of(line.substr(0, line.find('#')).substr(program.size())));
     }
     return commands;
 }
@@ -131,6 +136,31 @@ TEST_F(Documents, TheCookbooksTasksAreToldInOtherProgramsWordsAndTimed) {
         ++tasks;
     }
     EXPECT_GE(tasks, 30U);
+}
+
+// Each row: what, `OLD` → `NEW` in the graph of the README, or a command, or both; and what is said.
+TEST_F(Documents, AHundredMistakesAreToldAsTheirPageSays) {
+    const std::string readme = read(fs::path(KEYLINE_DOCS).parent_path() / "README.md");
+    const std::string graph = blocks_in(readme).front().text;
+    fs::create_symlink(plates(), folder() / "plates");
+    std::istringstream page(read(fs::path(KEYLINE_DOCS) / "mistakes.md"));
+    const std::regex row(R"(\| (.+) \| (?:`(.+)` → `(.+?)`)?(?:, )?(?:`keyline (.+)`)? \| `(.+)` \|)");
+    std::size_t mistakes = 0;
+    std::smatch m;
+    for (std::string line; std::getline(page, line);) {
+        if (!std::regex_match(line, m, row)) continue;
+        std::string text = graph;
+        if (m[2].matched) {
+            const std::size_t at = text.find(m.str(2));
+            ASSERT_NE(at, std::string::npos) << line;
+            text.replace(at, m.length(2), m.str(3));
+        }
+        write("toon.json", text);
+        const Outcome run = keyline(words_of(m[4].matched ? m.str(4) : "check toon.json"));
+        EXPECT_THAT(run.err, testing::HasSubstr(m.str(5) + "\n")) << line;
+        ++mistakes;
+    }
+    EXPECT_GE(mistakes, 100U);
 }
 
 // Its graph finds the lines that its commands then measure.
