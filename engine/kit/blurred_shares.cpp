@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace keyline {
 
@@ -17,18 +18,18 @@ uint32_t in_parts(float coverage) {
     return coverage > 0 ? static_cast<uint32_t>(std::min(coverage, 1.0F) * SharedPixels::kWhole + 0.5F) : 0;
 }
 
-void mark_covered(const float* __restrict coverage, int n, uint8_t* __restrict marks) {
-    for (int i = 0; i < n; ++i) marks[i] |= static_cast<uint8_t>(coverage[i] > 0);
+// Whether all of n pixels are of one object each, their first.
+bool are_whole(const float* id, const float* coverage, int n) {
+    uint32_t other = 0;
+    for (int i = 0; i < n; ++i)
+        other |= static_cast<uint32_t>(!(coverage[i] >= 1)) | static_cast<uint32_t>(id[i] == 0);
+    return other == 0;
 }
 
-// The first object, where it has all of a pixel.
-void take_first(const float* __restrict id, const float* __restrict coverage, int n,
-                uint32_t* __restrict sole, uint8_t* __restrict mixed) {
-    for (int i = 0; i < n; ++i) {
-        const bool whole = (coverage[i] >= 1) & (id[i] != 0);
-        sole[i] = whole ? std::bit_cast<uint32_t>(id[i]) : 0;
-        mixed[i] &= static_cast<uint8_t>(!whole);
-    }
+bool are_empty(const float* coverage, int n) {
+    uint32_t covered = 0;
+    for (int i = 0; i < n; ++i) covered |= static_cast<uint32_t>(coverage[i] > 0);
+    return covered == 0;
 }
 
 }  // namespace
@@ -83,14 +84,22 @@ void SharedPixels::find_soles(int y) {
         for (int x = rect_.x0; x < rect_.x1; ++x) find_sole(x, y);
         return;
     }
-    const int width = rect_.width();
-    uint8_t* mixed = &mixed_[place(rect_.x0, y)];
-    std::fill_n(mixed, width, uint8_t{0});
-    for (std::size_t r = 1; r < views_.size(); r += 2) mark_covered(views_[r].at(rect_.x0, y), width, mixed);
-    take_first(views_[0].at(rect_.x0, y), views_[1].at(rect_.x0, y), width, &sole_[place(rect_.x0, y)],
-               mixed);
-    each_where(
-        mixed, width, [](uint8_t m) { return m != 0; }, [&](int i) { find_sole(rect_.x0 + i, y); });
+    constexpr int kAtOnce = 16;
+    for (int x = rect_.x0; x < rect_.x1; x += kAtOnce) {
+        const int n = std::min(kAtOnce, rect_.x1 - x);
+        const float *id = views_[0].at(x, y), *coverage = views_[1].at(x, y);
+        const bool whole = are_whole(id, coverage, n);
+        bool empty = !whole;
+        for (std::size_t r = 1; empty && r < views_.size(); r += 2) empty = are_empty(views_[r].at(x, y), n);
+        if (whole)
+            std::memcpy(&sole_[place(x, y)], id, index(n) * sizeof(float));
+        else if (empty)
+            std::fill_n(&sole_[place(x, y)], n, 0U);
+        if (whole || empty)
+            std::fill_n(&mixed_[place(x, y)], n, uint8_t{0});
+        else
+            for (int i = 0; i < n; ++i) find_sole(x + i, y);
+    }
 }
 
 void SharedPixels::find_sole(int x, int y) {

@@ -141,6 +141,20 @@ Crossing between(const Surfaces& surfaces, const Blurred& p, const Blurred& q, i
     return out;
 }
 
+// The first of the pixels from `i` up to `end` whose label may differ from its right or lower neighbour's.
+std::size_t next_border(std::span<const uint32_t> labels, std::span<const uint32_t> below, std::size_t i,
+                        std::size_t end) {
+    constexpr std::size_t kAtOnce = 32;
+    const auto differ = [&](std::size_t k) { return (labels[k] ^ labels[k + 1]) | (labels[k] ^ below[k]); };
+    for (; i + kAtOnce < end; i += kAtOnce) {
+        uint32_t any = 0;
+        for (std::size_t k = i; k < i + kAtOnce; ++k) any |= differ(k);
+        if (any != 0) break;
+    }
+    while (i + 1 < end && differ(i) == 0) ++i;
+    return i;
+}
+
 }  // namespace
 
 FindCrossings::FindCrossings(const Options& options)
@@ -169,13 +183,14 @@ void FindCrossings::compute(const Inputs& in, Outputs out, Scratch& scratch) con
         std::memcpy(out[0].row(y), &here.labels()[left], width * sizeof(float));
         for (const std::size_t plane : {kRight, kDown}) std::fill_n(out[plane + kAlong].row(y), width, 0.0F);
         if (!pixels.is_near_any(y)) continue;
+        const std::span<const uint32_t> labels = here.labels(), next = has_below ? below.labels() : labels;
+        const std::size_t last = index(all.width()) - 1;
         for (std::size_t i = left; i < left + width; ++i) {
+            i = next_border(labels, next, i, left + width);
             const int x = all.x0 + static_cast<int>(i);
-            const uint32_t label = here.labels()[i];
-            if (x + 1 < all.x1 && label != here.labels()[i + 1])
+            if (i < last && labels[i] != labels[i + 1])
                 put(out, kRight, between(surfaces, {here, i}, {here, i + 1}, x, y, false));
-            if (has_below && label != below.labels()[i])
-                put(out, kDown, between(surfaces, {here, i}, {below, i}, x, y, true));
+            if (labels[i] != next[i]) put(out, kDown, between(surfaces, {here, i}, {below, i}, x, y, true));
         }
     }
 }

@@ -91,11 +91,21 @@ struct LayInk {
         const auto n = static_cast<std::size_t>(rect.width());
         std::array<std::span<float>, 5> row;
         for (auto& channel : row) channel = scratch.floats(n);
+        for (auto& channel : row) std::ranges::fill(channel, 0.0F);
         for (int y = rect.y0; y < rect.y1; ++y) {
-            for (auto& channel : row) std::ranges::fill(channel, 0.0F);
-            for (const InkSpan& span : ink.row(y)) lay(ink, span, rect, row);
-            if (overlap == Overlap::kUnion) unite(row);
+            int from = rect.x1, to = rect.x0;  // where there are strokes
+            for (const InkSpan& span : ink.row(y)) {
+                if (span.x1 <= rect.x0 || span.x0 >= rect.x1) continue;
+                from = std::min(from, std::max(span.x0, rect.x0));
+                to = std::max(to, std::min(span.x1, rect.x1));
+                lay(ink, span, rect, row);
+            }
+            Row inked;
+            for (std::size_t c = 0; c < row.size() && from < to; ++c)
+                inked[c] = row[c].subspan(index(from - rect.x0), index(to - from));
+            if (overlap == Overlap::kUnion) unite(inked);
             for (std::size_t c = 0; c < out.size(); ++c) std::ranges::copy(row[c], out[c].row(y));
+            for (const std::span<float> channel : inked) std::ranges::fill(channel, 0.0F);
         }
     }
 
