@@ -51,8 +51,8 @@ uint32_t ShareLists::Open::close(std::size_t pixel) {
     return most.id;
 }
 
-SharedPixels::SharedPixels(std::span<const View> views, bool integers, int reach, Scratch& scratch)
-    : views_(views), integers_(integers), reach_(reach), rect_(views[0].rect) {
+SharedPixels::SharedPixels(std::span<const View> views, bool integers, int reach, int sure, Scratch& scratch)
+    : views_(views), integers_(integers), reach_(reach), sure_(sure), rect_(views[0].rect) {
     const auto area = static_cast<std::size_t>(rect_.area());
     sole_ = scratch.take<uint32_t>(area);
     mixed_ = scratch.take<uint8_t>(area);
@@ -129,23 +129,26 @@ void SharedPixels::mark_near(Scratch& scratch) {
     near_ = scratch.take<uint8_t>(sole_.size());
     row_is_near_ = scratch.take<uint8_t>(index(rect_.height()));
     row_meets_ = scratch.take<uint8_t>(index(rect_.height()));
-    const auto meets = scratch.take<uint8_t>(index(width));
+    const auto meets = scratch.take<uint8_t>(index(width)), near_here = scratch.take<uint8_t>(index(width));
     for (const auto& marks : {near_in_row_, near_, row_is_near_, row_meets_})
         std::ranges::fill(marks, uint8_t{0});
+    const auto mark = [width](uint8_t* row, int i, int around) {
+        std::fill(row + std::max(i - around, 0), row + std::min(i + around + 1, width), uint8_t{1});
+    };
     for (int y = rect_.y0; y < rect_.y1; ++y) {
         if (!mark_meetings(y, meets)) continue;
         row_meets_[index(y - rect_.y0)] = 1;
-        uint8_t* in_row = &near_in_row_[place(rect_.x0, y)];
+        std::ranges::fill(near_here, uint8_t{0});
         each_where(
             meets.data(), width, [](uint8_t m) { return m != 0; },
             [&](int i) {
-                std::fill(in_row + std::max(i - reach_, 0), in_row + std::min(i + reach_ + 1, width),
-                          uint8_t{1});
+                mark(&near_in_row_[place(rect_.x0, y)], i, reach_);
+                mark(near_here.data(), i, sure_);
             });
-        for (int v = std::max(y - reach_, rect_.y0); v < std::min(y + reach_ + 1, rect_.y1); ++v) {
+        for (int v = std::max(y - sure_, rect_.y0); v < std::min(y + sure_ + 1, rect_.y1); ++v) {
             row_is_near_[index(v - rect_.y0)] = 1;
             uint8_t* to = &near_[place(rect_.x0, v)];
-            for (int i = 0; i < width; ++i) to[i] |= in_row[i];
+            for (int i = 0; i < width; ++i) to[i] |= near_here[index(i)];
         }
     }
 }
@@ -247,6 +250,20 @@ std::vector<uint32_t> blur_weights(double sigma, int reach) {
     for (int x = -reach; x <= reach; ++x)
         out.push_back(static_cast<uint32_t>(std::lround(weight(x) / sum * (1 << 12))));
     return out;
+}
+
+int sure_within(std::span<const uint32_t> weights) {
+    const auto reach = static_cast<int>(weights.size() / 2);
+    const auto sum = [&](int from, int to) {
+        uint64_t out = 0;
+        for (int k = from; k <= to; ++k) out += weights[index(k + reach)];
+        return out;
+    };
+    // The pixel beside it has them from one column before itself on, where the picture ends behind that.
+    const uint64_t all = sum(-reach, reach);
+    int sure = 1;
+    while (sure < reach && 2 * sum(-1, sure - 1) * sum(-sure, sure) <= all * all) ++sure;
+    return sure;
 }
 
 }  // namespace keyline

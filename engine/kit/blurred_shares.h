@@ -73,8 +73,8 @@ private:
 class SharedPixels {
 public:
     // `views` are ids and coverage in turn, or one channel of ids; a pixel is blurred with those within
-    // `reach` of it.
-    SharedPixels(std::span<const View> views, bool integers, int reach, Scratch& scratch);
+    // `reach` of it, and where all within `sure` are one object's, nothing can change whose it is.
+    SharedPixels(std::span<const View> views, bool integers, int reach, int sure, Scratch& scratch);
 
     const Rect& rect() const { return rect_; }
     int reach() const { return reach_; }
@@ -85,7 +85,7 @@ public:
     }
 
     // Rows, from the region's left.  Whose each pixel is; whether objects meet within reach of it in its row,
-    // and whether they do in any direction.
+    // and whether they do so near, in any direction, that its label is not sure.
     const uint32_t* soles(int y) const { return &sole_[place(rect_.x0, y)]; }
     const uint8_t* near_in_row(int y) const { return &near_in_row_[place(rect_.x0, y)]; }
     const uint8_t* near(int y) const { return &near_[place(rect_.x0, y)]; }
@@ -110,7 +110,7 @@ private:
 
     std::span<const View> views_;
     bool integers_;
-    int reach_;
+    int reach_, sure_;
     Rect rect_;
     std::span<uint32_t> sole_;
     std::span<uint8_t> mixed_, near_in_row_, near_, row_is_near_, row_meets_;
@@ -164,5 +164,9 @@ private:
 
 // A Gaussian's, as integers that sum to about 2^12.
 std::vector<uint32_t> blur_weights(double sigma, int reach);
+
+// How far around a pixel all must be one object's so that it has more than half of that pixel and of each
+// beside it, whatever is farther away and wherever the picture ends; at most the blur's reach.
+int sure_within(std::span<const uint32_t> weights);
 
 }  // namespace keyline

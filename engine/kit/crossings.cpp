@@ -160,7 +160,8 @@ std::size_t next_border(std::span<const uint32_t> labels, std::span<const uint32
 FindCrossings::FindCrossings(const Options& options)
     : options_(options),
       reach_(static_cast<int>(std::ceil(3 * options.sigma))),
-      weights_(blur_weights(options.sigma, reach_)) {}
+      weights_(blur_weights(options.sigma, reach_)),
+      sure_(sure_within(weights_)) {}
 
 Halo FindCrossings::halo() const {
     const int reach = 1 + std::max(reach_, kAside + 1);
@@ -169,7 +170,7 @@ Halo FindCrossings::halo() const {
 
 // Where there is none, only the outputs that say so are written.
 void FindCrossings::compute(const Inputs& in, Outputs out, Scratch& scratch) const {
-    const SharedPixels pixels(in.slot(0), options_.integers, reach_, scratch);
+    const SharedPixels pixels(in.slot(0), options_.integers, reach_, sure_, scratch);
     const Surfaces surfaces(pixels, in.slot(1), options_.pixel_angle);
     BlurredRows rows(pixels, weights_);
     const Rect &rect = out[0].rect, &all = pixels.rect();

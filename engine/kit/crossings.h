@@ -53,6 +53,7 @@ private:
     Options options_;
     int reach_;
     std::vector<uint32_t> weights_;  // of the blur, along a row or a column
+    int sure_;                       // see sure_within()
 };
 
 // Those of a block of the outputs.
