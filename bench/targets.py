@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from statistics import median
 
 KEYLINE, OPENEXR = "Keyline", "OpenEXR read + write"
-STROKES = "contours, gradient, trace, chain, smooth, weight, draw"
+STROKES = "contours, trace, chain, smooth, weight, draw"
 HD, UHD2 = 1920.0 * 1080, 7680.0 * 4320
 
 
