@@ -6,7 +6,7 @@
 ;;
 ;;     (load "/path/to/keyline/editors/emacs.el")
 ;;
-;; in init.el.  $KEYLINE is the program, where it is not in $PATH.
+;; in init.el, where Eglot is installed (of Emacs 29 it is a part).  $KEYLINE is the program, where it is not in $PATH.
 
 (require 'eglot)
 

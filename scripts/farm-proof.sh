@@ -12,20 +12,7 @@ here=$(cd "$(dirname "$0")/.." && pwd)
 plot=${PLOT:-$PWD/farm-proof.svg}
 machines=3 chunk=10
 
-work=$(mktemp -d /tmp/keyline-proof-XXXXXX)
-farm() { "$here/tests/farm/slurm-single-host.sh" "$1" "$work/farm" "${@:2}" 2>> "$work/farm.log"; }
-end() { farm stop || true; rm -rf "$work"; }
-trap end EXIT
-fail() { echo "FAILED: $*"; tail -n 20 "$work"/*.log || true; exit 1; }
-
-cd "$work"
-cat > small.json << 'JSON'
-{ "keyline": 1,
-  "nodes": {
-    "c":    { "type": "constant", "color": ["${frame}", 0.2, 0.3, 1], "size": [400, 300] },
-    "soft": { "type": "gaussian", "in": "c", "sigma": 20 },
-    "out":  { "type": "write", "in": "soft", "file": "out/s.####.exr" } } }
-JSON
+. "$here/tests/farm/set_up.sh"
 farm start $machines 1 4000
 export SLURM_CONF=$work/farm/slurm.conf
 begun=$SECONDS
@@ -68,13 +55,10 @@ wait $waiting || fail "the job ended with status $?: $(tail -n 3 wait.log)"
 took=$((SECONDS - begun))
 
 "$keyline" verify small.json --frames "1-$frames" > verify.txt || fail "$(tail -n 1 verify.txt)"
-mkdir alone
-cp small.json alone
 alone=$SECONDS
-"$keyline" render alone/small.json --frames "1-$frames" --progress none 2> alone.log
+render_alone "1-$frames"
 alone=$((SECONDS - alone))
-for file in alone/out/*.exr; do cmp -s "$file" "out/${file##*/}" || fail "$file is another one"; done
-[[ -z $(find out -name '.*keyline*') ]] || fail "left over: $(find out -name '.*keyline*')"
+compare_with_alone
 
 tries=$(grep -c JobState= farm/log/jobcomp.txt)
 lost=$(grep -c NODE_FAIL farm/log/jobcomp.txt || true)

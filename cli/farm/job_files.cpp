@@ -17,17 +17,38 @@ namespace keyline::cli {
 namespace fs = std::filesystem;
 
 std::span<const FileManager> file_managers() {
-    static constexpr std::array<FileManager, 5> kAll{{
-        {"opencue", "A job for OpenCue: a layer that renders, and one after it that verifies", opencue_files,
+    static const OwnOption kUser{"--user", &Submission::user, "NAME", "Whose job it is; yours when absent"};
+    static const std::array<FileManager, 5> kAll{{
+        {"opencue",
+         "A job for OpenCue: a layer that renders, and one after it that verifies",
+         {kUser,
+          {"--show", &Submission::show, "NAME", "The show, which OpenCue must know; keyline when absent"},
+          {"--shot", &Submission::shot, "NAME", "The shot; test when absent"},
+          {"--service", &Submission::service, "NAME", "The service of the layers; shell when absent"}},
+         opencue_files,
          send_to_opencue},
-        {"afanasy", "A job for Afanasy: a block that renders, and one after it that verifies", afanasy_files,
+        {"afanasy",
+         "A job for Afanasy: a block that renders, and one after it that verifies",
+         {kUser,
+          {"--service", &Submission::service, "NAME", "The service of the blocks; generic when absent"}},
+         afanasy_files,
          send_to_afanasy},
-        {"tractor", "A job for Tractor: tasks that render, and one after them that verifies", tractor_files,
+        {"tractor",
+         "A job for Tractor: tasks that render, and one after them that verifies",
+         {{"--service", &Submission::service, "NAME", "The service key; PixarRender when absent"}},
+         tractor_files,
          send_to_tractor},
-        {"deadline", "Two jobs for Deadline 10: one renders, the other verifies after it", deadline_files,
+        {"deadline",
+         "Two jobs for Deadline 10: one renders, the other verifies after it",
+         {{"--pool", &Submission::pool, "NAME", "The pool; Deadline's own choice when absent"},
+          {"--group", &Submission::group, "NAME", "The group; Deadline's own choice when absent"}},
+         deadline_files,
          send_to_deadline},
-        {"flamenco", "A job and its type for Flamenco 3: tasks that render, and one after them that verifies",
-         flamenco_files, send_to_flamenco},
+        {"flamenco",
+         "A job and its type for Flamenco 3: tasks that render, and one after them that verifies",
+         {{"--manager", &Submission::url, "URL", "Flamenco's manager; http://localhost:8080 when absent"}},
+         flamenco_files,
+         send_to_flamenco},
     }};
     return kAll;
 }

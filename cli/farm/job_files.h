@@ -18,8 +18,16 @@ struct JobFile {
     std::string name, text;
 };
 
+// An option that only some managers have, and where its value goes.
+struct OwnOption {
+    const char* name;
+    std::string Submission::*value;
+    const char *value_name, *help;
+};
+
 struct FileManager {
     const char *name, *about;
+    std::vector<OwnOption> options;
     std::vector<JobFile> (*files)(const Submission& job);
     // Gives the manager the files, which lie in the folder.
     void (*send)(const Submission& job, const std::filesystem::path& folder);

@@ -30,8 +30,8 @@ struct SubmitArguments {
     bool print = false, wait = false;
     std::string bundle;  // of Open Job Description
     std::string files;   // the folder to write a job's files into; empty: they are sent
-    std::string program, user, show = "keyline", shot = "test", service, pool, group;
-    std::string url = "http://localhost:8080";
+    std::string program;
+    Submission own;  // what its manager alone asks for
 };
 
 std::vector<std::string> chunks_of(const std::vector<int>& frames, int chunk) {
@@ -79,7 +79,7 @@ std::optional<Submission> prepared(const SubmitArguments& arguments, Diagnostics
     LoadedGraph loaded = load_graph(arguments.graph, diagnostics);
     if (loaded.graph)
         loaded.options.frames = frames_to_render(*loaded.graph, loaded.options.frames, diagnostics);
-    Submission job;
+    Submission job = arguments.own;
     const auto count = [&](const char* option, const std::string& text, int most, int& out) {
         try {
             out = parse_count(text, 1, most);
@@ -107,13 +107,6 @@ std::optional<Submission> prepared(const SubmitArguments& arguments, Diagnostics
     job.partition = arguments.partition;
     job.logs = arguments.logs;
     job.program = arguments.program.empty() ? own_program() : arguments.program;
-    job.user = arguments.user;
-    job.show = arguments.show;
-    job.shot = arguments.shot;
-    job.service = arguments.service;
-    job.pool = arguments.pool;
-    job.group = arguments.group;
-    job.url = arguments.url;
     return diagnostics.ok() ? std::optional(std::move(job)) : std::nullopt;
 }
 
@@ -151,28 +144,10 @@ void add_program_option(const Command& command, SubmitArguments& arguments) {
 }
 
 // What each of the managers that take files asks for.
-void add_own_options(const Command& command, const std::string& manager, SubmitArguments& a) {
+void add_own_options(const Command& command, const FileManager& manager, SubmitArguments& a) {
     add_program_option(command, a);
     command.option("--job", a.files, "DIR", "Write the job's files into this folder, and send nothing");
-    const auto add = [&](const char* option, std::string& value, const char* help) {
-        command.option(option, value, "NAME", help);
-    };
-    if (manager == "opencue" || manager == "afanasy")
-        add("--user", a.user, "Whose job it is; yours when absent");
-    if (manager == "opencue") {
-        add("--show", a.show, "The show, which OpenCue must know; keyline when absent");
-        add("--shot", a.shot, "The shot; test when absent");
-        add("--service", a.service, "The service of the layers; shell when absent");
-    } else if (manager == "afanasy") {
-        add("--service", a.service, "The service of the blocks; generic when absent");
-    } else if (manager == "tractor") {
-        add("--service", a.service, "The service key; PixarRender when absent");
-    } else if (manager == "deadline") {
-        add("--pool", a.pool, "The pool; Deadline's own choice when absent");
-        add("--group", a.group, "The group; Deadline's own choice when absent");
-    } else if (manager == "flamenco") {
-        command.option("--manager", a.url, "URL", "Flamenco's manager; http://localhost:8080 when absent");
-    }
+    for (const OwnOption& o : manager.options) command.option(o.name, a.own.*o.value, o.value_name, o.help);
 }
 
 }  // namespace
@@ -230,8 +205,7 @@ void add_submit(const Command& program) {
     slurm.flag("--wait", arguments->wait, "Wait for the end; status 0 where all outputs are current then");
     add_program_option(slurm, *arguments);
     for (const FileManager& manager : file_managers())
-        add_own_options(add_manager(submit, arguments, manager.name, manager.about), manager.name,
-                        *arguments);
+        add_own_options(add_manager(submit, arguments, manager.name, manager.about), manager, *arguments);
     const Command openjd = add_manager(
         submit, arguments, "openjd", "A job bundle of Open Job Description, as AWS Deadline Cloud takes it");
     openjd.option("--bundle", arguments->bundle, "DIR", "The folder to write it into").required();

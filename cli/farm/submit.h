@@ -24,8 +24,9 @@ struct Submission {
     std::string partition;      // of Slurm; empty: its default
     std::string logs;           // the folder of the logs
     std::string program;        // where Keyline lies on the machines that render
-    // What else managers ask for; empty where it was not said.
-    std::string user, show, shot, service, pool, group, url;
+    // What else managers ask for, each by options of its own; empty where it was not said.
+    std::string user, show = "keyline", shot = "test", service, pool, group;
+    std::string url = "http://localhost:8080";
 };
 
 // "keyline render GRAPH" and the options that say what is rendered, as a shell takes it.

@@ -13,18 +13,7 @@ if ! command -v nvim >/dev/null; then
 fi
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
-cat >"$folder/graph.json" <<END
-{
-  "keyline": 1,
-  "nodes": {
-    "r": { "type": "read", "file": "$sources/graphs/plates/garden.0012.exr" },
-    "y": { "type": "ycolor", "in": "r:hero.Com" },
-    "s": { "type": "gausian", "in": "y" },
-    "m": { "type": "cryptomatte", "in": "r", "layer": "CryptoObject", "objects": ["robot."] },
-    "out": { "type": "write", "in": "m", "file": "out.exr" }
-  }
-}
-END
+sed "s|PLATES|$sources/graphs/plates|" "$sources/tests/editors/half_typed.json" >"$folder/graph.json"
 echo '{ "name": "other" }' >"$folder/other.json"
 shown=$(XDG_CONFIG_HOME=$folder XDG_DATA_HOME=$folder XDG_STATE_HOME=$folder KEYLINE=$program GRAPH=$folder/graph.json \
   OTHER=$folder/other.json nvim --headless --clean -u "$sources/editors/neovim.lua" -c "filetype on" \

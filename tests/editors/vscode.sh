@@ -18,18 +18,7 @@ if ! cmp -s package-lock.json installed; then
   npm ci --silent --no-audit --no-fund || { echo "skipped: npm can't install the client"; exit 77; }
   cp package-lock.json installed
 fi
-cat >graph.json <<END
-{
-  "keyline": 1,
-  "nodes": {
-    "r": { "type": "read", "file": "$sources/graphs/plates/garden.0012.exr" },
-    "y": { "type": "ycolor", "in": "r:hero.Com" },
-    "s": { "type": "gausian", "in": "y" },
-    "m": { "type": "cryptomatte", "in": "r", "layer": "CryptoObject", "objects": ["robot."] },
-    "out": { "type": "write", "in": "m", "file": "out.exr" }
-  }
-}
-END
+sed "s|PLATES|$sources/graphs/plates|" "$sources/tests/editors/half_typed.json" >graph.json
 shown=$(node probe.mjs "$program" graph.json)
 echo "$shown"
 for wanted in "told: 5: no layer or channel 'hero.Com'" "told: 6: there is no node type 'gausian'" \

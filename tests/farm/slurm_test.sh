@@ -14,20 +14,7 @@ done
 [[ $(id -u) == 0 ]] || { echo "skipped: not root"; exit 77; }
 unshare --fork --pid --mount-proc --uts true 2> /dev/null || { echo "skipped: no namespaces"; exit 77; }
 
-work=$(mktemp -d /tmp/keyline-slurm-XXXXXX)
-farm() { "$here/slurm-single-host.sh" "$1" "$work/farm" "${@:2}"; }
-end() { farm stop || true; rm -rf "$work"; }
-trap end EXIT
-fail() { echo "FAILED: $*"; tail -n 20 "$work"/*.log || true; exit 1; }
-
-cd "$work"
-cat > small.json << 'JSON'
-{ "keyline": 1,
-  "nodes": {
-    "c":    { "type": "constant", "color": ["${frame}", 0.2, 0.3, 1], "size": [400, 300] },
-    "soft": { "type": "gaussian", "in": "c", "sigma": 20 },
-    "out":  { "type": "write", "in": "soft", "file": "out/s.####.exr" } } }
-JSON
+. "$here/set_up.sh"
 farm start 2 1 4000
 export SLURM_CONF=$work/farm/slurm.conf
 "$keyline" submit slurm small.json --frames 1-60 --chunk 5 --wait 2> wait.log &
@@ -44,11 +31,6 @@ cat wait.log
 
 "$keyline" verify small.json --frames 1-60 > verify.txt || fail "not all are current"
 grep -q '^60 outputs: 60 current$' verify.txt || fail "$(tail -n 1 verify.txt)"
-mkdir alone
-cp small.json alone
-"$keyline" render alone/small.json --frames 1-60 --progress none
-for file in alone/out/*.exr; do
-    cmp "$file" "out/$(basename "$file")" || fail "$file is another one"
-done
-[[ -z $(find out -name '.*keyline*') ]] || fail "left over: $(find out -name '.*keyline*')"
+render_alone 1-60
+compare_with_alone
 echo "ok: 60 frames, $(grep -c NODE_FAIL farm/log/jobcomp.txt || true) tasks lost with their machine"

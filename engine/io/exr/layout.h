@@ -7,6 +7,7 @@
 #include "engine/io/exr/format.h"
 #include "engine/io/exr/header.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -20,7 +21,9 @@ struct Layout {
     Metadata metadata;
     bool one_tile = false;  // a tiled part whose only tile is the data window; else scanlines
 
-    int rows_per_chunk() const { return one_tile ? data_window.height() : info(compression).rows; }
+    int rows_per_chunk() const {
+        return one_tile ? std::max(1, data_window.height()) : info(compression).rows;
+    }
     int chunks() const {
         const int rows = info(compression).rows;
         return one_tile ? 1 : (data_window.height() + rows - 1) / rows;

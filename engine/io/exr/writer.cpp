@@ -139,7 +139,7 @@ private:
     std::size_t most_bytes(const Rect& rect) const {
         std::size_t pixel = 0;
         for (const StoredChannel& c : layout_.channels) pixel += sample_size(c.type);
-        const auto chunks = static_cast<std::size_t>(rect.height() / layout_.rows_per_chunk() + 1);
+        const std::size_t chunks = static_cast<std::size_t>(rect.height() / layout_.rows_per_chunk()) + 1;
         return pixel * static_cast<std::size_t>(rect.area()) + chunks * 2 * sizeof(int32_t);
     }
 
