@@ -49,6 +49,7 @@ void add_commands(const Command& program) {
     add_provenance(program);
     add_submit(program);
     add_test(program);
+    add_explain(program);
     add_completion(program);
 }
 

@@ -9,6 +9,7 @@
 namespace keyline::cli {
 
 void add_completion(const Command& program);
+void add_explain(const Command& program);
 void add_new(const Command& program);
 void add_test(const Command& program);
 

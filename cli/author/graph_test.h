@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "engine/graph/graph.h"
 #include "engine/json/value.h"
 #include "engine/look/differences.h"
 
@@ -35,8 +36,16 @@ struct TestResult {
     bool blessed = false;             // the file that it expects was written
     double seconds = 0;
     std::set<std::string> reached;     // nodes of the graph that the output is made of
+    std::set<std::string> branches;    // ways of the graph that it took; see branches_of()
     std::set<std::string> parameters;  // "TYPE.NAME" that nodes of the test were given
 };
+
+// The ways that a graph has: "look = 'final'" for each choice of a variable, "'soft' enabled" and "'soft' not
+// enabled" for each node that says it.  Those that it takes at a frame are in `taken`.
+struct Branches {
+    std::set<std::string> all, taken;
+};
+Branches branches_of(const Graph& graph, int frame);
 
 // With `bless`, an expected file becomes what was made.
 TestResult run_graph_test(const GraphTest& test, bool bless);

@@ -212,6 +212,7 @@ void compare_messages(const GraphTest& test, const Diagnostics& told, TestResult
 void note_what_is_touched(const Graph& graph, const GraphTest& test, TestResult& out) {
     for (const int i : graph.nodes_in_use())
         out.reached.insert(graph.nodes()[static_cast<std::size_t>(i)].id);
+    out.branches = branches_of(graph, test.frame).taken;
     for (const Member& node : test.nodes.members)
         if (const Value* type = node.value.find("type"))
             for (const Member& m : node.value.members) out.parameters.insert(type->text + "." + m.key);
@@ -237,6 +238,24 @@ void run(const GraphTest& test, bool bless, TestResult& out) {
 }
 
 }  // namespace
+
+Branches branches_of(const Graph& graph, int frame) {
+    Branches out;
+    for (const Variables::Chosen& v : graph.variables().chosen()) {
+        for (const std::string& choice : v.choices)
+            out.all.insert(fmt::format("{} = {}", v.name, in_quotes(choice)));
+        out.taken.insert(fmt::format("{} = {}", v.name, in_quotes(v.now)));
+    }
+    Diagnostics told;  // by the loader
+    for (int i = 0; const GraphNode& node : graph.nodes()) {
+        const int index = i++;
+        if (!node.enabled) continue;
+        const std::string yes = in_quotes(node.id) + " enabled", no = in_quotes(node.id) + " not enabled";
+        out.all.insert({yes, no});
+        out.taken.insert(graph.is_enabled(index, frame, told).value_or(true) ? yes : no);
+    }
+    return out;
+}
 
 TestResult run_graph_test(const GraphTest& test, bool bless) {
     const auto begin = std::chrono::steady_clock::now();

@@ -68,7 +68,8 @@ void add_test(const Command& program) {
     command.flag("--bless", arguments->bless,
                  "Where an expected file differs or is not there, make it what came out");
     command.flag("--untouched", arguments->untouched,
-                 "Tell which nodes of the graphs no test reaches, and which parameters none gives");
+                 "Tell which nodes of the graphs no test reaches, which of their branches none takes, and "
+                 "which parameters none gives");
     command.flag("--tap", arguments->tap, "As the Test Anything Protocol, version 14");
     command.option("--junit", arguments->junit, "FILE", "Write the results as JUnit's XML too");
     command.option("--threads", arguments->threads, "N", "Tests at once; all cores when absent");

@@ -24,10 +24,24 @@ std::size_t failed(const std::vector<TestResult>& results) {
         std::ranges::count_if(results, [](const TestResult& r) { return !r.faults.empty(); }));
 }
 
-// The nodes of each graph, and those that some test reaches.
+// The nodes of each graph, and those that some test reaches; its branches, and those that some test takes.
 struct Reach {
-    std::set<std::string> nodes, reached;
+    std::set<std::string> nodes, reached, branches, taken;
 };
+
+std::vector<std::string> left_of(const std::set<std::string>& all, const std::set<std::string>& touched) {
+    std::vector<std::string> out;
+    std::ranges::set_difference(all, touched, std::back_inserter(out));
+    return out;
+}
+
+// "a, b and c"
+std::string joined(const std::vector<std::string>& words) {
+    std::string out;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        out += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+    return out;
+}
 
 std::map<std::string, Reach> reach_of(const std::vector<GraphTest>& tests,
                                       const std::vector<TestResult>& results) {
@@ -38,11 +52,14 @@ std::map<std::string, Reach> reach_of(const std::vector<GraphTest>& tests,
             (std::filesystem::path(tests[i].folder) / tests[i].graph).lexically_normal().string();
         const auto [it, is_new] = out.try_emplace(file);
         it->second.reached.insert(results[i].reached.begin(), results[i].reached.end());
+        it->second.taken.insert(results[i].branches.begin(), results[i].branches.end());
         if (!is_new) continue;
         Diagnostics unheard;
-        if (const auto graph = Graph::load_what_is_sound(file, {}, unheard))
-            for (const GraphNode& node : graph->nodes())
-                if (node.type->kind != NodeKind::kSink) it->second.nodes.insert(node.id);
+        const auto graph = Graph::load_what_is_sound(file, {}, unheard);
+        if (!graph) continue;
+        it->second.branches = branches_of(*graph, 1).all;
+        for (const GraphNode& node : graph->nodes())
+            if (node.type->kind != NodeKind::kSink) it->second.nodes.insert(node.id);
     }
     return out;
 }
@@ -114,9 +131,10 @@ std::string results_as_junit(const std::vector<GraphTest>& tests, const std::vec
 std::string untouched_text(const std::vector<GraphTest>& tests, const std::vector<TestResult>& results) {
     std::string out;
     for (const auto& [file, reach] : reach_of(tests, results)) {
-        std::vector<std::string> left;
-        std::ranges::set_difference(reach.nodes, reach.reached, std::back_inserter(left));
-        if (!left.empty()) out += fmt::format("{}: no test reaches {}\n", escaped(file), listed(left));
+        if (const auto left = left_of(reach.nodes, reach.reached); !left.empty())
+            out += fmt::format("{}: no test reaches {}\n", escaped(file), listed(left));
+        if (const auto left = left_of(reach.branches, reach.taken); !left.empty())
+            out += fmt::format("{}: no test has {}\n", escaped(file), joined(left));
     }
     for (const auto& [type, names] : parameters_not_given(results))
         out += fmt::format("{}: no test gives {}\n", type, listed(names));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/common/completion.h"
 
+#include "cli/common/explanations.h"
 #include "cli/common/frames.h"
 #include "cli/common/options.h"
 #include "engine/base/channels.h"
@@ -186,6 +187,12 @@ Candidates node_types() {
     return out;
 }
 
+Candidates codes() {
+    Candidates out;
+    for (const Explanation& e : explanations()) out.push_back({std::string(e.code), std::string(e.title)});
+    return out;
+}
+
 Candidates words_of(const std::string& kind) {
     Candidates out;
     for (const std::string& word : parted(kind, '|')) out.push_back({word, ""});
@@ -208,6 +215,7 @@ Candidates values(const Typed& typed, const std::string& kind) {
     if (kNamesOfFiles.contains(kind)) return {{kFiles, ""}};
     if (kind == "SPEC") return {{"all", "every frame on disk"}};
     if (kind == "TYPE") return node_types();
+    if (kind == "CODE") return codes();
     if (!kOfGraphs.contains(kind)) return {};
     const std::unique_ptr<const Graph> graph = graph_of(typed);
     return graph ? values_of_graph(*graph, typed, kind) : Candidates{};

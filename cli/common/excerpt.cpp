@@ -83,7 +83,10 @@ std::string styled(std::string line, const Error& error, std::string_view label,
     const std::string place = error.place.file.empty() ? "" : escaped(error.place.text() + ": ");
     if (style.colours && std::string_view(line).substr(place.size()).starts_with(label))
         line.replace(place.size(), label.size(), coloured(label, colour, style));
-    return style.excerpts ? line + excerpt(error.place, colour, style) : line;
+    if (!style.excerpts) return line;
+    if (error.code != Code::kNone)
+        line += coloured(fmt::format(" [{}]", code_name(error.code)), kPale, style);
+    return line + excerpt(error.place, colour, style);
 }
 
 }  // namespace

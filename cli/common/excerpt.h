@@ -17,8 +17,8 @@ struct MessageStyle {
 // Of standard error.  NO_COLOR in the environment keeps colours away, and so does a TERM that has none.
 MessageStyle message_style();
 
-// Error::text() or warning_text(), and what the style adds: colour to a word of the first line, lines below
-// it. Each line but the last ends with a line feed.
+// Error::text() or warning_text(), and what the style adds: the code, colour to a word of the first line,
+// lines below it. Each line but the last ends with a line feed.
 std::string styled_error(const Error& error, const MessageStyle& style);
 std::string styled_warning(const Error& warning, const MessageStyle& style);
 

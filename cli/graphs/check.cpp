@@ -4,6 +4,7 @@
 #include "cli/common/options.h"
 #include "cli/common/report.h"
 #include "cli/graphs/commands.h"
+#include "cli/graphs/disk_space.h"
 #include "cli/graphs/frame_changes.h"
 #include "cli/graphs/messages.h"
 #include "cli/graphs/streams.h"
@@ -74,10 +75,13 @@ std::string check_graph(const CheckArguments& all, const GraphArguments& argumen
         if (arguments.frames == kAllFrames) warn_of_gaps(frames, diagnostics);
         if (all.streams) streams.emplace(all.json, *loaded.graph);
         FrameChanges changes(*loaded.graph);
+        DiskSpace space;
         check_frames(*loaded.graph, frames, loaded.options, diagnostics, [&](const ResolvedFrame& frame) {
             changes.look(frame, diagnostics);
+            space.look(frame);
             if (streams) streams->add(frame);
         });
+        space.tell(diagnostics);
     }
     if (!note.empty() && !all.for_programs()) print_message("checked with " + note);
     diagnostics.sort_by_place();

@@ -6,6 +6,8 @@
 #include "engine/base/index.h"
 #include "engine/params/frames.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <set>
 
@@ -42,13 +44,33 @@ std::vector<std::string> changed(const Types& before, const Types& now) {
     return out;
 }
 
+// What files say of the colours that they hold.
+constexpr std::array kOfColours{"chromaticities", "colorSpace", "colorInteropID", "acesImageContainerFlag"};
+
+std::vector<Attribute> colours_of(const Stream& stream) {
+    std::vector<Attribute> out;
+    for (const char* name : kOfColours)
+        if (const Attribute* attribute = stream.metadata->find(name)) out.push_back(*attribute);
+    return out;
+}
+
+// Of the attributes that only one has, or that differ.
+std::vector<std::string> names_of_difference(const std::vector<Attribute>& a,
+                                             const std::vector<Attribute>& b) {
+    std::set<std::string> out;
+    for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)})
+        for (const Attribute& attribute : *one)
+            if (std::ranges::find(*other, attribute) == other->end()) out.insert(attribute.name);
+    return {out.begin(), out.end()};
+}
+
 }  // namespace
 
 void FrameChanges::look(const ResolvedFrame& frame, Diagnostics& diagnostics) {
     for (const NodeStream& s : frame.streams) {
         const GraphNode& node = graph_.nodes()[index(s.node)];
         if (node.type->kind != NodeKind::kSource || s.stream.is_data()) continue;
-        const Seen now{frame.frame, s.stream.display, types_of(frame, s.stream)};
+        const Seen now{frame.frame, s.stream.display, types_of(frame, s.stream), colours_of(s.stream)};
         const auto [it, is_first] = seen_.try_emplace(s.node, now);
         const Seen before = std::exchange(it->second, now);
         if (is_first) continue;
@@ -56,11 +78,14 @@ void FrameChanges::look(const ResolvedFrame& frame, Diagnostics& diagnostics) {
             diagnostics.warning({ErrorKind::kInput, node.place,
                                  fmt::format("{}, frame {}", node.title(), frame.frame),
                                  std::move(what) + fmt::format(" in frame {}", before.frame),
-                                 "'keyline info' tells of both files"});
+                                 "'keyline info' tells of both files", Passing::kNever, Code::kFramesDiffer});
         };
         if (now.display != before.display)
             warn(fmt::format("the display window is {}, and {}", to_string(now.display),
                              to_string(before.display)));
+        if (now.colours != before.colours)
+            warn(fmt::format("the colour space, by {}, is another than",
+                             some_of(names_of_difference(before.colours, now.colours))));
         if (const auto lost = only_in(before.types, now.types); !lost.empty())
             warn(fmt::format("{} {} missing, which {} there", some_of(lost), lost.size() == 1 ? "is" : "are",
                              lost.size() == 1 ? "was" : "were"));
@@ -83,7 +108,9 @@ void warn_of_gaps(const std::vector<int>& frames, Diagnostics& diagnostics) {
          {},
          fmt::format("between frames {} and {}, {} {} not on disk", *there.begin(), *there.rbegin(),
                      format_frames(missing), missing.size() == 1 ? "is" : "are"),
-         "say which frames there are to be, as in --frames 1-24, where that is meant"});
+         "say which frames there are to be, as in --frames 1-24, where that is meant",
+         Passing::kNever,
+         Code::kFramesMissing});
 }
 
 }  // namespace keyline::cli

@@ -16,7 +16,7 @@ public:
     explicit FrameChanges(const Graph& graph) : graph_(graph) {}
 
     // Warns of what differs from the frame that was looked at before: the frame's size, channels that come or
-    // go, and types.
+    // go, their types, and the colour space.
     void look(const ResolvedFrame& frame, Diagnostics& diagnostics);
 
 private:
@@ -24,6 +24,7 @@ private:
         int frame = 0;
         Rect display;
         std::map<std::string, std::string> types;  // of channels
+        std::vector<Attribute> colours;            // what the file says of its colour space
     };
 
     const Graph& graph_;

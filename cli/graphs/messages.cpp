@@ -17,7 +17,7 @@ void write_place(JsonWriter& json, const Place& place) {
 }
 
 void write_message(JsonWriter& json, const char* severity, const Error& e) {
-    json.begin_object().field("severity", severity).field("kind", reason_of(e));
+    json.begin_object().field("severity", severity).field("kind", reason_of(e)).field("code", code_of(e));
     write_place(json, e.place);
     if (!e.node.empty()) json.field("node", e.node);
     json.field("what", e.what);
@@ -49,7 +49,7 @@ std::string address(const std::string& file) {
 // What no graph's line is about, an option or a file, stands at the graph.
 void write_result(JsonWriter& json, const std::string& graph, const char* level, const Error& e) {
     const bool has_line = e.place.line > 0;
-    json.begin_object().field("ruleId", reason_of(e)).field("level", level);
+    json.begin_object().field("ruleId", code_of(e)).field("level", level);
     json.key("message").begin_object().field("text", sentence(e)).end_object();
     json.key("locations").begin_array().begin_object().key("physicalLocation").begin_object();
     json.key("artifactLocation")

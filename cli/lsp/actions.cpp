@@ -45,27 +45,39 @@ std::optional<Span> wrong_word(const Document& document, const Error& error, Spa
 }
 
 std::optional<Edit> replacement(const Document& document, const Error& error) {
-    const auto meant = between(error.hint, "did you mean '", "'?");
+    auto meant = between(error.hint, "did you mean '", "'?");
+    if (!meant) meant = between(error.hint, "' is '", "' here");
+    if (meant && meant->find('\'') != std::string::npos) return std::nullopt;  // one of several
     const auto word = meant ? wrong_word(document, error, span_of(document, error)) : std::nullopt;
     if (!word) return std::nullopt;
     return Edit{fmt::format("Write '{}'", *meant), *word, *meant};
 }
 
-// After the type of the node whose key is at the error's place.
-std::optional<Edit> insertion(const Document& document, const Error& error) {
-    const bool is_input = error.what.starts_with("input '");
-    const auto name = between(error.what, is_input ? "input '" : "parameter '", "' is missing");
+// A member of the node whose key is at the error's place, after its type.
+std::optional<Edit> member(const Document& document, const Error& error, const std::string& title,
+                           const std::string& key, const std::string& value) {
     const JsonTree* nodes = document.section("nodes");
-    if (!name || !nodes) return std::nullopt;
+    if (!nodes) return std::nullopt;
     const Span at = span_of(document, error);
     const auto node =
         std::ranges::find_if(nodes->items, [&](const JsonItem& i) { return i.key.begin == at.begin; });
     const JsonItem* type = node == nodes->items.end() ? nullptr : document.member(node->value, "type");
-    if (!type) return std::nullopt;
+    if (!type || document.member(node->value, key)) return std::nullopt;
     const std::size_t end = type->value.span.end;
-    return Edit{fmt::format("Add '{}'", *name),
-                {end, end},
-                fmt::format(", \"{}\": {}", *name, is_input ? "\"\"" : "null")};
+    return Edit{title, {end, end}, fmt::format(", \"{}\": {}", key, value)};
+}
+
+std::optional<Edit> insertion(const Document& document, const Error& error) {
+    const bool is_input = error.what.starts_with("input '");
+    const auto name = between(error.what, is_input ? "input '" : "parameter '", "' is missing");
+    if (!name) return std::nullopt;
+    return member(document, error, fmt::format("Add '{}'", *name), *name, is_input ? "\"\"" : "null");
+}
+
+std::optional<Edit> meaning(const Document& document, const Error& warning) {
+    if (!can_be_meant(warning.code) || warning.node.empty()) return std::nullopt;
+    return member(document, warning, fmt::format("Say that '{}' is meant", code_name(warning.code)), "meant",
+                  fmt::format("\"{}\"", code_name(warning.code)));
 }
 
 void write(JsonWriter& json, const Document& document, const Edit& edit) {
@@ -80,9 +92,15 @@ void write(JsonWriter& json, const Document& document, const Edit& edit) {
 std::string actions(const Known& known, Span range) {
     JsonWriter json;
     json.begin_array();
-    for (const Error& e : known.analysis.diagnostics.errors()) {
+    const auto is_asked_for = [&](const Error& e) {
         const Span span = span_of(known.document, e);
-        if (span.end < range.begin || range.end < span.begin) continue;
+        return span.end >= range.begin && range.end >= span.begin;
+    };
+    for (const Error& w : known.analysis.diagnostics.warnings())
+        if (const auto edit = is_asked_for(w) ? meaning(known.document, w) : std::nullopt)
+            write(json, known.document, *edit);
+    for (const Error& e : known.analysis.diagnostics.errors()) {
+        if (!is_asked_for(e)) continue;
         if (const auto edit = replacement(known.document, e)) write(json, known.document, *edit);
         if (const auto edit = insertion(known.document, e)) write(json, known.document, *edit);
     }

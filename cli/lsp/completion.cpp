@@ -61,6 +61,9 @@ private:
         if (path.size() == 3 && document_.string_of(path[0]->key) == "nodes" &&
             document_.string_of(path[2]->key) == "type")
             return add(types(document_, before));
+        if (path.size() >= 3 && document_.string_of(path[0]->key) == "nodes" &&
+            document_.string_of(path[2]->key) == "meant")
+            return add(mistakes());
         if (!site_.item && site_.container->is(JsonTree::Kind::kArray)) return of_new_item(path, before);
         const Meaning meaning = meaning_of(document_, path);
         if (meaning.type) return of_type(*meaning.type, before, meaning);

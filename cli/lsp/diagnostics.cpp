@@ -51,7 +51,7 @@ bool is_half_typed(const Document& document, Span span) {
 void write(JsonWriter& json, const Document& document, const Error& error, int severity) {
     json.begin_object().key("range");
     document.text().write_range(json, span_of(document, error));
-    json.field("severity", severity).field("source", "keyline");
+    json.field("severity", severity).field("source", "keyline").field("code", code_of(error));
     const bool is_elsewhere = !error.place.file.empty() && error.place.file != document.file().string();
     std::string message = is_elsewhere ? error.place.text() + ": " : "";
     message += error.what + (error.hint.empty() ? "" : "; " + error.hint);

@@ -50,6 +50,16 @@ std::vector<Offer> keys_of_node(const NodeType* type) {
     out.push_back({"about", OfferKind::kProperty, "a string", "What the node is for, in words."});
     out.push_back({"enabled", OfferKind::kProperty, "true or false",
                    "Where false, the node passes its leading input on."});
+    out.push_back({"meant", OfferKind::kProperty, "a warning's code, or a list",
+                   "What would be warned of, and is right so."});
+    return out;
+}
+
+std::vector<Offer> mistakes() {
+    std::vector<Offer> out;
+    for (const Code code : all_codes())
+        if (can_be_meant(code))
+            out.push_back({std::string(code_name(code)), OfferKind::kValue, "what is warned of", ""});
     return out;
 }
 

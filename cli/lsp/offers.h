@@ -41,6 +41,7 @@ std::string detail_of(const FieldInfo& field);
 std::vector<Offer> top_level_keys();
 std::vector<Offer> keys_of_node(const NodeType* type);  // null: of any
 std::vector<Offer> keys_of(const std::vector<FieldInfo>& fields);
+std::vector<Offer> mistakes();  // that may be meant
 std::vector<Offer> keys_of_animation();
 
 std::vector<Offer> types(const Document& document, const std::string& typed);

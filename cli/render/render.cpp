@@ -241,9 +241,10 @@ void add_render(const Command& program) {
     command.option("--profile", arguments->profile, "FILE",
                    "Print where the time went and write it to FILE as a Chrome trace");
     command.option(
-        "--progress", arguments->progress, "MODE",
-        "auto (what the render farm's manager reads where it is recognised, else a bar on a "
-        "terminal, else lines), bar, lines, json, none, openjd, afanasy, tractor, deadline or flamenco");
+        "--progress", arguments->progress,
+        "auto|bar|lines|json|none|openjd|afanasy|tractor|deadline|flamenco",
+        "How to say how far it is; auto is what the render farm's manager reads where it is recognised, "
+        "else a bar on a terminal, else lines");
     command.option(
         "--heartbeat", arguments->heartbeat, "SECONDS",
         "Say at least so often how far a frame is; 30 when absent, 10 for openjd, afanasy, tractor and "

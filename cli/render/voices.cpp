@@ -156,9 +156,11 @@ private:
 std::string event_text(std::string_view event, const Error& error) {
     JsonWriter json;
     json.begin_object().field("event", event);
-    if (event == "warning") return json.field("text", error.warning_text()).end_object().text();
+    if (event == "warning")
+        return json.field("text", error.warning_text()).field("code", code_of(error)).end_object().text();
     json.field("text", error.text()).field("kind", kind_name(error.kind));
     json.field("retry", error.passing != Passing::kNever).field("reason", reason_of(error));
+    json.field("code", code_of(error));
     if (!error.place.file.empty()) {
         json.key("place").begin_object().field("file", error.place.file);
         if (error.place.line > 0) json.field("line", error.place.line).field("column", error.place.column);

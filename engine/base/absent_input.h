@@ -12,7 +12,13 @@ namespace KEYLINE_API keyline {
 class AbsentInput final : public Failure {
 public:
     AbsentInput(const std::string& file, std::string hint)
-        : Failure({ErrorKind::kInput, {}, {}, file + ": no such file", std::move(hint)}) {}
+        : Failure({ErrorKind::kInput,
+                   {},
+                   {},
+                   file + ": no such file",
+                   std::move(hint),
+                   Passing::kNever,
+                   Code::kFileMissing}) {}
 };
 
 }  // namespace keyline

@@ -12,8 +12,9 @@ namespace KEYLINE_API keyline {
 // authors of nodes need not.
 class BadValue : public Failure {
 public:
-    BadValue(std::string value, std::string what, std::string hint)
-        : Failure({ErrorKind::kGraph, {}, {}, std::move(what), std::move(hint)}), value_(std::move(value)) {}
+    BadValue(std::string value, std::string what, std::string hint, Code code = Code::kWrongValue)
+        : Failure({ErrorKind::kGraph, {}, {}, std::move(what), std::move(hint), Passing::kNever, code}),
+          value_(std::move(value)) {}
     const std::string& value() const { return value_; }
 
 private:

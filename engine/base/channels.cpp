@@ -93,7 +93,8 @@ std::vector<Picked> pick_below(Names names, std::string_view prefix) {
             above.emplace_back(layer.substr(0, ++dot));
     }
     if (out.empty())
-        fail(ErrorKind::kGraph, fmt::format("no layer below {}; {}", in_quotes(prefix), what_there_is(names)),
+        fail(Code::kUnknownChannel, ErrorKind::kGraph,
+             fmt::format("no layer below {}; {}", in_quotes(prefix), what_there_is(names)),
              did_you_mean(prefix, above));
     return out;
 }
@@ -105,8 +106,8 @@ std::vector<Picked> pick_spelled(Names names, std::string_view selection) {
 }
 
 [[noreturn]] void refuse_ambiguous(std::string_view selection, std::string_view noun, const Words& matches) {
-    fail(ErrorKind::kGraph, fmt::format("{} could be the {}", in_quotes(selection), counted(noun, matches)),
-         "name one in full");
+    fail(Code::kUnknownChannel, ErrorKind::kGraph,
+         fmt::format("{} could be the {}", in_quotes(selection), counted(noun, matches)), "name one in full");
 }
 
 Words matching(const Words& words, std::string_view end) {
@@ -202,10 +203,13 @@ std::vector<std::string> layers_of(std::span<const std::string> names) {
 
 std::vector<Picked> select_channels(std::span<const std::string> names, std::string_view selection) {
     if (selection.empty())
-        fail(ErrorKind::kGraph, "no layer or channel is named after the ':'", what_there_is(names));
+        fail(Code::kUnknownChannel, ErrorKind::kGraph, "no layer or channel is named after the ':'",
+             what_there_is(names));
     if (selection == ".") {
         std::vector<Picked> bare = pick_layer(names, "");
-        if (bare.empty()) fail(ErrorKind::kGraph, "no channel is without a layer; " + what_there_is(names));
+        if (bare.empty())
+            fail(Code::kUnknownChannel, ErrorKind::kGraph,
+                 "no channel is without a layer; " + what_there_is(names));
         return bare;
     }
     if (selection.ends_with('.')) return pick_below(names, selection);
@@ -221,7 +225,7 @@ std::vector<Picked> select_channels(std::span<const std::string> names, std::str
     if (channels.size() == 1) return pick_channel(names, *index_of(names, channels[0]));
     if (std::vector<Picked> spelled = pick_spelled(names, selection); !spelled.empty()) return spelled;
 
-    fail(ErrorKind::kGraph,
+    fail(Code::kUnknownChannel, ErrorKind::kGraph,
          fmt::format("no layer or channel {}; {}", in_quotes(selection), what_there_is(names)),
          did_you_mean(selection, candidates(names)));
 }
@@ -237,15 +241,17 @@ ColourChannels find_colour(std::span<const std::string> names) {
         if (has("R") && has("G") && has("B")) colour.push_back(layer);
     }
     if (!colour.empty())
-        fail(ErrorKind::kGraph, "there is no colour (R G B) outside of the " + counted("layer", colour),
+        fail(Code::kUnknownChannel, ErrorKind::kGraph,
+             "there is no colour (R G B) outside of the " + counted("layer", colour),
              fmt::format("take one, as in ':{}'", colour[0]));
-    fail(ErrorKind::kGraph, "there is no colour (R G B); " + what_there_is(names));
+    fail(Code::kUnknownChannel, ErrorKind::kGraph, "there is no colour (R G B); " + what_there_is(names));
 }
 
 std::size_t find_matte(std::span<const std::string> names) {
     if (names.size() == 1) return 0;
     if (const auto a = find_spelled(names, "A")) return *a;
-    fail(ErrorKind::kGraph, "there is no matte, which is the only channel or A; " + what_there_is(names),
+    fail(Code::kUnknownChannel, ErrorKind::kGraph,
+         "there is no matte, which is the only channel or A; " + what_there_is(names),
          names.empty() ? "" : fmt::format("take one channel, as in ':{}'", names[0]));
 }
 
@@ -262,8 +268,9 @@ std::vector<std::size_t> find_channels(std::span<const std::string> names,
     }
     if (missing.empty()) return out;
     if (std::vector<std::size_t> axes = find_axes(names, wanted); !axes.empty()) return axes;
-    fail(ErrorKind::kGraph, fmt::format("the {} {} missing; {}", counted("channel", missing),
-                                        missing.size() == 1 ? "is" : "are", what_there_is(names)));
+    fail(Code::kUnknownChannel, ErrorKind::kGraph,
+         fmt::format("the {} {} missing; {}", counted("channel", missing), missing.size() == 1 ? "is" : "are",
+                     what_there_is(names)));
 }
 
 std::vector<std::size_t> rgba_order(std::span<const std::string> names) {

@@ -83,6 +83,10 @@ void fail(ErrorKind kind, std::string what, std::string hint, Passing passing) {
     throw Failure({kind, {}, {}, std::move(what), std::move(hint), passing});
 }
 
+void fail(Code code, ErrorKind kind, std::string what, std::string hint) {
+    throw Failure({kind, {}, {}, std::move(what), std::move(hint), Passing::kNever, code});
+}
+
 int exit_status(const Error& error) {
     if (error.passing != Passing::kNever) return kTryAgain;
     switch (error.kind) {
@@ -124,6 +128,10 @@ std::string_view reason_of(const Error& error) {
         case Passing::kNever: break;
     }
     return kind_name(error.kind);
+}
+
+std::string_view code_of(const Error& error) {
+    return error.code == Code::kNone ? reason_of(error) : code_name(error.code);
 }
 
 std::string in_quotes(std::string_view text) {

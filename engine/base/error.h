@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/base/api.h"
+#include "engine/base/code.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -57,6 +58,7 @@ struct Error {
     std::string what;  // values always; ends without a full stop
     std::string hint;  // what to do, or "did you mean 'sigma'?"; may be empty
     Passing passing = Passing::kNever;
+    Code code = Code::kNone;
 
     // "PLACE: error: NODE: WHAT; HINT", leaving out what is empty.
     std::string text() const;
@@ -81,6 +83,9 @@ private:
 // it.
 [[noreturn]] void fail(ErrorKind kind, std::string what, std::string hint = {},
                        Passing passing = Passing::kNever);
+
+// The same with what kind of mistake it is.
+[[noreturn]] void fail(Code code, ErrorKind kind, std::string what, std::string hint = {});
 
 // Throws the failure on with what the edit does to its error; what the catcher knows is put in so.
 template <class Edit>
@@ -119,6 +124,9 @@ const Error& decisive(const std::vector<Error>& errors);
 // "input", "output", "failed", "internal").
 std::string_view reason_of(const Error& error);
 std::string_view kind_name(ErrorKind kind);
+
+// The kind of mistake in a word, for `keyline explain` and other programs: its code, else reason_of().
+std::string_view code_of(const Error& error);
 
 // For messages: in quotes, cut to 60 characters, control characters escaped.
 std::string in_quotes(std::string_view text);

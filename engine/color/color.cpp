@@ -215,7 +215,7 @@ std::vector<std::string> split_looks(const std::string& looks) {
                    known.empty() ? fmt::format("there are no named transforms in {}", config_name)
                                  : fmt::format("there is no named transform {} in {}; it has {}",
                                                in_quotes(transform), config_name, listed(known)),
-                   did_you_mean(transform, known));
+                   did_you_mean(transform, known), Code::kUnknownColour);
 }
 
 }  // namespace
@@ -331,7 +331,7 @@ ColorTransform ColorConfig::file(const std::filesystem::path& file, const std::s
                                  bool inverse) const {
     std::error_code unknown;  // where it can't be looked at, reading it says why
     if (!std::filesystem::exists(file, unknown) && !unknown)
-        fail(ErrorKind::kInput, fmt::format("{}: no such file", file.string()));
+        fail(Code::kFileMissing, ErrorKind::kInput, fmt::format("{}: no such file", file.string()));
     auto transform = ocio::FileTransform::Create();
     transform->setSrc(std::filesystem::absolute(file).c_str());
     transform->setCCCId(id.empty() ? "0" : id.c_str());
@@ -371,7 +371,7 @@ void ColorConfig::require_space(const std::string& space) const {
         space,
         fmt::format("there is no colour space {} in {}; it has {}{}", in_quotes(space), name_,
                     listed(color_spaces()), known_roles.empty() ? "" : "; roles " + listed(known_roles)),
-        did_you_mean(space, space_names(*impl_->config)));
+        did_you_mean(space, space_names(*impl_->config)), Code::kUnknownColour);
 }
 
 void ColorConfig::require_looks(const std::string& looks) const {
@@ -384,7 +384,7 @@ void ColorConfig::require_looks(const std::string& looks) const {
                        known.empty() ? fmt::format("there are no looks in {}", name_)
                                      : fmt::format("there is no look {} in {}; it has {}", in_quotes(look),
                                                    name_, listed(known)),
-                       did_you_mean(look, known));
+                       did_you_mean(look, known), Code::kUnknownColour);
     }
 }
 
@@ -397,7 +397,7 @@ void ColorConfig::require_variable(const std::string& variable) const {
     throw BadValue(variable,
                    fmt::format("there is no context variable {} in {}; it has {}", in_quotes(variable), name_,
                                listed(known)),
-                   did_you_mean(variable, known));
+                   did_you_mean(variable, known), Code::kUnknownColour);
 }
 
 std::string ColorConfig::found_display(const std::string& display) const {
@@ -408,7 +408,7 @@ std::string ColorConfig::found_display(const std::string& display) const {
     throw BadValue(
         display,
         fmt::format("there is no display {} in {}; it has {}", in_quotes(display), name_, listed(known)),
-        did_you_mean(display, known));
+        did_you_mean(display, known), Code::kUnknownColour);
 }
 
 std::string ColorConfig::found_view(const std::string& display, const std::string& view) const {
@@ -418,7 +418,19 @@ std::string ColorConfig::found_view(const std::string& display, const std::strin
     throw BadValue(view,
                    fmt::format("there is no view {} of display {} in {}; it has {}", in_quotes(view),
                                in_quotes(display), name_, listed(known)),
-                   did_you_mean(view, known));
+                   did_you_mean(view, known), Code::kUnknownColour);
+}
+
+ColorConfig::SpaceFor ColorConfig::space_for(const std::string& space) const {
+    const auto found = impl_->config->getColorSpace(space.c_str());
+    if (!found) return SpaceFor::kUnknown;
+    const auto linear = impl_->config->getColorSpace("scene_linear");
+    const std::string_view encoding = found->getEncoding();
+    if ((linear && std::string_view(linear->getName()) == found->getName()) || encoding == "scene-linear")
+        return SpaceFor::kScene;
+    const bool is_for_display = found->getReferenceSpaceType() == ocio::REFERENCE_SPACE_DISPLAY ||
+                                encoding == "sdr-video" || encoding == "hdr-video";
+    return is_for_display ? SpaceFor::kDisplay : SpaceFor::kUnknown;
 }
 
 std::vector<std::string> ColorConfig::color_spaces() const {

@@ -101,6 +101,10 @@ public:
     };
     ColorTransform decide(const Decision& decision, bool inverse) const;
 
+    // What colour in a space is meant for, as far as the config says it.
+    enum class SpaceFor { kUnknown, kScene, kDisplay };
+    SpaceFor space_for(const std::string& space) const;
+
     std::vector<std::string> color_spaces() const;  // active ones, in the config's order, without roles
     std::vector<std::string> displays() const;
     std::vector<std::string> views(const std::string& display) const;  // empty for an unknown display

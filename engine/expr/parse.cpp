@@ -44,11 +44,18 @@ public:
         Term term = choice();
         if (now().kind != Token::Kind::kEnd)
             throw ExpressionFault(now().at, fmt::format("expected an operator, found {}", found()),
-                                  now().is_sign(",") ? "a decimal point is written '.'" : "");
+                                  way_out());
         return term;
     }
 
 private:
+    // What people write who are used to other languages.
+    std::string way_out() const {
+        if (now().is_sign(",")) return "a decimal point is written '.'";
+        const bool is_if = now().is_word("if") || tokens_[0].is_word("if");
+        return is_if ? "a choice is written CONDITION ? VALUE : OTHER" : "";
+    }
+
     const Token& now() const { return tokens_[next_]; }
     std::string found() const {
         return now().kind == Token::Kind::kEnd ? "the end of the expression" : in_quotes(now().text);

@@ -55,7 +55,7 @@ public:
 
 private:
     void refuse(const Place& place, std::string what, std::string hint = {}) {
-        graph_error(diagnostics_, place, std::move(what), std::move(hint));
+        graph_error(diagnostics_, place, std::move(what), std::move(hint), {}, Code::kMotion);
         is_sound_ = false;
     }
 
@@ -257,14 +257,15 @@ private:
                 graph_error(
                     diagnostics_, *wanted,
                     fmt::format("there is nothing between {} and {}", from.value->shown(), to.value->shown()),
-                    "write \"hold\"");
+                    "write \"hold\"", {}, Code::kMotion);
             return !wanted;
         }
         for (const Tangent& tangent : {from.out, to.in})
             if (tangent && !can_mix(a, spread(*tangent.rise))) {
                 graph_error(diagnostics_, tangent.rise->place,
                             fmt::format("a tangent rises by {}, and the value is {}; they must be alike",
-                                        tangent.rise->shown(), from.value->shown()));
+                                        tangent.rise->shown(), from.value->shown()),
+                            {}, {}, Code::kMotion);
                 return false;
             }
         return true;

@@ -43,7 +43,7 @@ void apply_set(const OptionValue& o, std::vector<GraphNode>& nodes, Diagnostics&
     const auto node = std::ranges::find(nodes, id, &GraphNode::id);
     if (node == nodes.end())
         return graph_error(diagnostics, place, "there is no node " + in_quotes(id),
-                           did_you_mean(id, ids_of(nodes)));
+                           did_you_mean(id, ids_of(nodes)), {}, Code::kUnknownNode);
     const std::string name = o.target.substr(dot + 1);
     if (name == "type" || name == "about")
         return graph_error(diagnostics, place,

@@ -65,21 +65,23 @@ private:
         if (to == nodes_.end()) {
             links_.known = false;
             if (!unknown_ids_.contains(in.node))
-                error(i, in, "there is no node " + in_quotes(in.node), near_node(in.node));
+                error(i, in, Code::kUnknownNode, "there is no node " + in_quotes(in.node),
+                      near_node(in.node));
         } else if (to->type->kind == NodeKind::kSink) {
-            error(i, in, fmt::format("{} is a {}, which has no result", in_quotes(in.node), to->type->name));
+            error(i, in, Code::kLinkKind,
+                  fmt::format("{} is a {}, which has no result", in_quotes(in.node), to->type->name));
         } else {
             links_.of[i].push_back(static_cast<int>(to - nodes_.begin()));
             auto fault = kind_fault(port, takes, in.node, *to->type);
             if (!fault && !in.selector.empty()) fault = selector_fault(in.node, *to->type);
             if (!fault) return;
             links_.misfits.insert(static_cast<int>(i));
-            error(i, in, std::move(fault->what), std::move(fault->hint));
+            error(i, in, Code::kLinkKind, std::move(fault->what), std::move(fault->hint));
         }
     }
 
-    void error(std::size_t i, const Input& in, std::string what, std::string hint = {}) {
-        graph_error(diagnostics_, in.place, std::move(what), std::move(hint), nodes_[i].title());
+    void error(std::size_t i, const Input& in, Code code, std::string what, std::string hint = {}) {
+        graph_error(diagnostics_, in.place, std::move(what), std::move(hint), nodes_[i].title(), code);
     }
 
     std::string near_node(const std::string& id) const {

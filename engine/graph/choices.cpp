@@ -26,7 +26,8 @@ void check_keys(const Value& declared, Diagnostics& diagnostics) {
         if (std::ranges::find(known, m.key) == known.end()) {
             const std::string hint = did_you_mean(m.key, known);
             graph_error(diagnostics, m.key_place, "unknown key " + in_quotes(m.key),
-                        hint.empty() ? "a variable with choices knows " + listed(known) : hint);
+                        hint.empty() ? "a variable with choices knows " + listed(known) : hint, {},
+                        Code::kUnknownKey);
         }
         if (m.key == "about") check_text(m, diagnostics);
     }
@@ -36,7 +37,8 @@ std::vector<Value> read_choices(const Value& choices, Diagnostics& diagnostics) 
     if (!choices.is(Kind::kArray) || choices.items.empty() || !std::ranges::all_of(choices.items, is_plain)) {
         graph_error(
             diagnostics, choices.place,
-            fmt::format("'choices' is {}; it must be a list of texts, numbers or truths", choices.shown()));
+            fmt::format("'choices' is {}; it must be a list of texts, numbers or truths", choices.shown()),
+            {}, {}, Code::kWrongValue);
         return {};
     }
     return choices.items;
@@ -50,7 +52,8 @@ Choice read_choice(const Value& declared, Diagnostics& diagnostics) {
     check_keys(declared, diagnostics);
     const Value* value = declared.find("default");
     if (value == nullptr)
-        graph_error(diagnostics, declared.place, "'default', which of the choices it is, is missing");
+        graph_error(diagnostics, declared.place, "'default', which of the choices it is, is missing", {}, {},
+                    Code::kMissingKey);
     Choice out{value ? *value : Value{}, read_choices(*choices, diagnostics)};
     if (value == nullptr) out = {out.choices.empty() ? Value{} : out.choices.front()};
     return out;

@@ -32,7 +32,7 @@ void check_only(const std::vector<GraphNode>& nodes, const std::vector<std::stri
         std::string hint = did_you_mean(id, sinks);
         if (hint.empty() && !sinks.empty()) hint = "the graph writes with " + listed(sinks);
         graph_error(diagnostics, {"--only " + id, 0, 0},
-                    fmt::format("{} is no output of the graph", in_quotes(id)), hint);
+                    fmt::format("{} is no output of the graph", in_quotes(id)), hint, {}, Code::kUnknownNode);
     }
 }
 
@@ -58,7 +58,7 @@ bool has_sink(const std::vector<GraphNode>& nodes) { return std::ranges::any_of(
 
 void report_no_sink(const Place& place, Diagnostics& diagnostics) {
     graph_error(diagnostics, place, "the graph writes nothing",
-                "add a node of one of these types: " + sink_types());
+                "add a node of one of these types: " + sink_types(), {}, Code::kNoOutput);
 }
 
 std::vector<int> choose_sinks(const std::vector<GraphNode>& nodes, const LoadOptions& options,
@@ -85,12 +85,15 @@ void warn_of_unused(const Graph& graph, Diagnostics& diagnostics) {
         if (used.contains(*it)) used.insert(graph.links(*it).begin(), graph.links(*it).end());
     }
     for (int i = 0; const GraphNode& node : graph.nodes())
-        if (!used.contains(i++) && !node.scope->outer)
+        if (!used.contains(i++) && !node.scope->outer &&
+            std::ranges::find(node.meant, Code::kUnused) == node.meant.end())
             diagnostics.warning({ErrorKind::kGraph,
                                  node.place,
                                  node.title(),
                                  "nothing that is written uses it; it is not run",
-                                 {}});
+                                 {},
+                                 Passing::kNever,
+                                 Code::kUnused});
 }
 
 void warn_of_unused_variables(const Value& root, const Graph& graph, Diagnostics& diagnostics) {
@@ -107,7 +110,9 @@ void warn_of_unused_variables(const Value& root, const Graph& graph, Diagnostics
                              variable.key_place,
                              {},
                              fmt::format("nothing uses the variable {}", in_quotes(variable.key)),
-                             {}});
+                             {},
+                             Passing::kNever,
+                             Code::kUnused});
 }
 
 }  // namespace keyline

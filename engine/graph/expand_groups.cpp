@@ -3,6 +3,7 @@
 #include "engine/graph/expand_groups.h"
 
 #include "engine/base/identifier.h"
+#include "engine/graph/any_node.h"
 #include "engine/graph/apply_options.h"
 #include "engine/graph/enabled.h"
 #include "engine/graph/graph_error.h"
@@ -49,12 +50,7 @@ private:
             return;
         }
         node.type = &group->type;
-        if (const Value* enabled = node.object.find("enabled")) node.enabled = *enabled;
-        for (const Member& m : node.object.members)
-            if (m.key == "about") check_text(m, diagnostics_, node.title());
-        std::erase_if(node.object.members, [](const Member& m) {
-            return m.key == "type" || m.key == "about" || m.key == "enabled";
-        });
+        take_what_any_node_has(node, node.title(), diagnostics_);
         const std::shared_ptr<Scope> inside = inside_of(*group, node, outer);
         GroupUse use{inside, outputs_of(*group)};
         if (use.outputs.empty()) read_.unknown_ids.insert(node.id);  // told where the group is read
@@ -113,6 +109,7 @@ private:
         inside->file = group.file;
         inside->folder = group.file.parent_path();
         inside->outer = outer.get();
+        inside->meant = node.meant;
         inside->use = fmt::format(", used at {}{}", node.place.text(), outer->use);
         Value declared;
         declared.kind = Value::Kind::kObject;
@@ -148,11 +145,12 @@ private:
             node.scope = inside;
             if (!is_identifier(m.key))
                 graph_error(diagnostics_, m.key_place, fmt::format("{} is no node id", in_quotes(m.key)),
-                            fmt::format("an id is {}", kIdentifierForm));
+                            fmt::format("an id is {}", kIdentifierForm), {}, Code::kWrongValue);
             else if (!m.value.is(Value::Kind::kObject))
                 graph_error(
                     diagnostics_, m.value.place,
-                    fmt::format("node {} is {}; it must be an object", in_quotes(node.id), m.value.shown()));
+                    fmt::format("node {} is {}; it must be an object", in_quotes(node.id), m.value.shown()),
+                    {}, {}, Code::kWrongValue);
             else
                 read_.nodes.push_back(std::move(node));
         }

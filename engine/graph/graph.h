@@ -43,10 +43,11 @@ struct LoadOptions {
 struct GraphNode {
     std::string id;
     const NodeType* type = nullptr;
-    Place place;   // of the id
-    Value object;  // inputs and parameters as written, without `type`, `about` and `enabled`
-    std::optional<Value> enabled = {};        // as written
+    Place place;                        // of the id
+    Value object;                       // inputs and parameters as written, without those that any node has
+    std::optional<Value> enabled = {};  // as written
     std::shared_ptr<const Scope> scope = {};  // what the names in them mean
+    std::vector<Code> meant = {};             // mistakes that it says are none
 
     const Variables& variables() const { return *scope->variables; }
 

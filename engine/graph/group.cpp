@@ -75,7 +75,7 @@ private:
     }
 
     void refuse(const Place& place, std::string what, std::string hint = {}) {
-        graph_error(diagnostics_, place, std::move(what), std::move(hint));
+        graph_error(diagnostics_, place, std::move(what), std::move(hint), {}, Code::kWrongValue);
     }
 
     // The members of a declaration; false where it is no object.
@@ -98,8 +98,8 @@ private:
 
     void unknown_key(const Member& m, const std::vector<std::string>& known) {
         const std::string hint = did_you_mean(m.key, known);
-        refuse(m.key_place, "unknown key " + in_quotes(m.key),
-               hint.empty() ? "known are " + listed(known) : hint);
+        graph_error(diagnostics_, m.key_place, "unknown key " + in_quotes(m.key),
+                    hint.empty() ? "known are " + listed(known) : hint, {}, Code::kUnknownKey);
     }
 
     static std::string text_of(const Value& declared, const char* key) {

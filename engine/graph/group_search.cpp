@@ -5,6 +5,7 @@
 #include "engine/base/identifier.h"
 #include "engine/base/library_place.h"
 #include "engine/graph/group.h"
+#include "engine/graph/other_names.h"
 #include "engine/graph/read_text.h"
 #include "engine/json/json_reader.h"
 #include "engine/node/registry.h"
@@ -177,8 +178,12 @@ std::string near_type(const std::string& type, const fs::path& folder) {
     if (name && is_wanted(folder / (name->base + ".json"), name->version))
         return fmt::format("for the file beside this one write \"{}.json\"", name->base);
     std::vector<std::string> known = registry().names();
-    for (NamedGroup& g : named_groups()) known.push_back(std::move(g.name));
-    const std::string hint = did_you_mean(type, known);
+    for (NamedGroup& g : named_groups()) {
+        if (name && name->version) known.push_back(Name{g.name, name->version}.text());
+        known.push_back(std::move(g.name));
+    }
+    std::string hint = own_name_of(type);
+    if (hint.empty()) hint = did_you_mean(type, known);
     return hint.empty() ? "'keyline nodes' lists those there are" : hint;
 }
 

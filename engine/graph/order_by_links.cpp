@@ -59,7 +59,7 @@ private:
         for (const int m : members) chain += in_quotes(nodes_[index(m)].id) + " needs ";
         const GraphNode& node = nodes_[index(members.front())];
         graph_error(diagnostics_, node.place, "the nodes form a cycle: " + chain + in_quotes(node.id), {},
-                    node.title());
+                    node.title(), Code::kCycle);
     }
 
     const std::vector<GraphNode>& nodes_;

@@ -3,6 +3,7 @@
 #include "engine/graph/read_nodes.h"
 
 #include "engine/base/identifier.h"
+#include "engine/graph/any_node.h"
 #include "engine/graph/apply_options.h"
 #include "engine/graph/expand_groups.h"
 #include "engine/graph/graph_error.h"
@@ -27,10 +28,11 @@ bool check_version(const Value& root, Diagnostics& diagnostics) {
     const Value* v = root.find("keyline");
     if (!v) {
         graph_error(diagnostics, root.place, "'keyline', the format's version, is missing",
-                    "add \"keyline\": 1");
+                    "add \"keyline\": 1", {}, Code::kMissingKey);
     } else if (!v->is(Value::Kind::kNumber) || v->number != std::floor(v->number) || v->number < 1) {
         graph_error(diagnostics, v->place,
-                    fmt::format("'keyline' is {}; it must be the format's version, 1", v->shown()));
+                    fmt::format("'keyline' is {}; it must be the format's version, 1", v->shown()), {}, {},
+                    Code::kWrongValue);
     } else if (v->number > kFormatVersion) {
         graph_error(diagnostics, v->place,
                     fmt::format("the graph is of version {}; this program knows versions up to {}",
@@ -51,18 +53,20 @@ void check_top_level(const Value& root, Diagnostics& diagnostics) {
         if (std::ranges::find(known, m.key) == known.end()) {
             const std::string hint = did_you_mean(m.key, known);
             graph_error(diagnostics, m.key_place, "unknown key " + in_quotes(m.key),
-                        hint.empty() ? "known are " + listed(known) : hint);
+                        hint.empty() ? "known are " + listed(known) : hint, {}, Code::kUnknownKey);
         }
         if (m.key == "about" || m.key == "$schema") check_text(m, diagnostics);
     }
-    if (!root.find("nodes")) graph_error(diagnostics, root.place, "'nodes' is missing");
+    if (!root.find("nodes"))
+        graph_error(diagnostics, root.place, "'nodes' is missing", {}, {}, Code::kMissingKey);
 }
 
 std::string read_ocio(const Value& v, const Variables& variables, Diagnostics& diagnostics) {
     const Value substituted = variables.substitute(v, std::nullopt, diagnostics);
     if (substituted.is(Value::Kind::kString) && !substituted.text.empty()) return substituted.text;
     graph_error(diagnostics, v.place,
-                fmt::format("'ocio' is {}; it must be the file name of an OpenColorIO config", v.shown()));
+                fmt::format("'ocio' is {}; it must be the file name of an OpenColorIO config", v.shown()), {},
+                {}, Code::kWrongValue);
     return {};
 }
 
@@ -75,7 +79,8 @@ Shot read_shot(const Value& root, Diagnostics& diagnostics) {
             shot.first = std::ranges::min(frames);
             shot.last = std::ranges::max(frames);
         } catch (const Failure& f) {
-            graph_error(diagnostics, v->place, fmt::format("'frames' is {}: {}", v->shown(), f.error().what));
+            graph_error(diagnostics, v->place, fmt::format("'frames' is {}: {}", v->shown(), f.error().what),
+                        {}, {}, Code::kWrongValue);
         }
     }
     if (const Value* v = root.find("fps")) {
@@ -83,7 +88,8 @@ Shot read_shot(const Value& root, Diagnostics& diagnostics) {
             shot.fps = v->number;
         else
             graph_error(diagnostics, v->place,
-                        fmt::format("'fps' is {}; it must be a number of frames a second", v->shown()));
+                        fmt::format("'fps' is {}; it must be a number of frames a second", v->shown()), {},
+                        {}, Code::kWrongValue);
     }
     return shot;
 }
@@ -106,7 +112,8 @@ public:
     void read_all(const Value& nodes) {
         if (!nodes.is(Value::Kind::kObject))
             return graph_error(diagnostics_, nodes.place,
-                               fmt::format("'nodes' is {}; it must be an object of id: node", nodes.shown()));
+                               fmt::format("'nodes' is {}; it must be an object of id: node", nodes.shown()),
+                               {}, {}, Code::kWrongValue);
         for (const Member& m : nodes.members) read_one(m);
     }
 
@@ -130,37 +137,36 @@ private:
     void read_one(const Member& m) {
         if (!is_identifier(m.key))
             graph_error(diagnostics_, m.key_place, fmt::format("{} is no node id", in_quotes(m.key)),
-                        fmt::format("an id is {}", kIdentifierForm));
+                        fmt::format("an id is {}", kIdentifierForm), {}, Code::kWrongValue);
         if (!m.value.is(Value::Kind::kObject)) {
             read_.unknown_ids.insert(m.key);
             return graph_error(
                 diagnostics_, m.value.place,
-                fmt::format("node {} is {}; it must be an object", in_quotes(m.key), m.value.shown()));
+                fmt::format("node {} is {}; it must be an object", in_quotes(m.key), m.value.shown()), {}, {},
+                Code::kWrongValue);
         }
         read_.nodes.push_back({m.key, nullptr, m.key_place, m.value, std::nullopt, read_.scope});
         read_.nodes.back().object.place = m.key_place;  // where what is missing is told
     }
 
     void resolve_type(GraphNode& node) {
-        const auto error = [&](const Place& place, std::string what, std::string hint = {}) {
-            graph_error(diagnostics_, place, std::move(what), std::move(hint), "node '" + node.id + "'");
+        const auto error = [&](Code code, const Place& place, std::string what, std::string hint = {}) {
+            graph_error(diagnostics_, place, std::move(what), std::move(hint), "node '" + node.id + "'",
+                        code);
         };
         const Value* type = node.object.find("type");
         if (!type)
-            error(node.place, "'type' is missing");
+            error(Code::kMissingKey, node.place, "'type' is missing");
         else if (!type->is(Value::Kind::kString))
-            error(type->place, fmt::format("'type' is {}; it must be a string", type->shown()));
+            error(Code::kWrongValue, type->place,
+                  fmt::format("'type' is {}; it must be a string", type->shown()));
         else if (!(node.type = registry().find(type->text)))
-            error(type->place, "there is no node type " + in_quotes(type->text),
+            error(Code::kUnknownType, type->place, "there is no node type " + in_quotes(type->text),
                   near_type(type->text, node.scope->file.parent_path()));
         else if (node.scope->outer && node.type->kind == NodeKind::kSink)
-            error(type->place, "a group writes nothing", "write what it gives where it is used");
-        for (const Member& m : node.object.members)
-            if (m.key == "about") check_text(m, diagnostics_, "node '" + node.id + "'");
-        if (const Value* enabled = node.object.find("enabled")) node.enabled = *enabled;
-        std::erase_if(node.object.members, [](const Member& m) {
-            return m.key == "type" || m.key == "about" || m.key == "enabled";
-        });
+            error(Code::kLinkKind, type->place, "a group writes nothing",
+                  "write what it gives where it is used");
+        take_what_any_node_has(node, "node '" + node.id + "'", diagnostics_);
     }
 
     ReadGraph& read_;

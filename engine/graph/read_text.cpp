@@ -17,7 +17,9 @@ std::string read_text(const std::filesystem::path& file, const std::string& what
     if (file == "-") return text << std::cin.rdbuf(), text.str();
     std::error_code error;
     const auto cannot = [&](const std::string& why) {
-        fail(ErrorKind::kGraph, fmt::format("cannot read {} {}: {}", what, in_quotes(file.string()), why));
+        const Code code = std::filesystem::exists(file, error) ? Code::kNone : Code::kFileMissing;
+        fail(code, ErrorKind::kGraph,
+             fmt::format("cannot read {} {}: {}", what, in_quotes(file.string()), why));
     };
     if (std::filesystem::is_directory(file, error)) cannot("it is a folder");
     std::ifstream in(file, std::ios::binary);

@@ -205,7 +205,7 @@ Value Variables::Replacer::evaluated(const Value& string) {
         put_at(out, string.place);
         return out;
     } catch (const ExpressionFault& f) {
-        fault(place_inside(string, f.at()), f.error().what, f.error().hint);
+        fault(place_inside(string, f.at()), f.error().what, f.error().hint, Code::kExpression);
     } catch (const Names::AlreadyTold&) {
         failed_ = true;
     }
@@ -236,7 +236,7 @@ void Variables::Replacer::check_expression(const Value& string) {
                 std::ranges::find(names, n.name) == names.end())
                 throw ExpressionFault(n.at, "unknown name " + in_quotes(n.name), did_you_mean(n.name, names));
     } catch (const ExpressionFault& f) {
-        fault(place_inside(string, f.at()), f.error().what, f.error().hint);
+        fault(place_inside(string, f.at()), f.error().what, f.error().hint, Code::kExpression);
     }
 }
 
@@ -246,12 +246,14 @@ void Variables::Replacer::check_text(const Value& string) {
     for (const Piece& piece : parsed.pieces) {
         if (piece.kind == Piece::Kind::kEnvironment) environment(piece.text, string.place);
         if (piece.kind == Piece::Kind::kVariable && !variables_.find(piece.text))
-            fault(string.place, "unknown variable " + in_quotes(piece.text), hint(piece.text));
+            fault(string.place, "unknown variable " + in_quotes(piece.text), hint(piece.text),
+                  Code::kUnknownVariable);
     }
 }
 
-std::optional<Value> Variables::Replacer::fault(const Place& place, std::string what, std::string hint) {
-    graph_error(diagnostics_, place, std::move(what), std::move(hint));
+std::optional<Value> Variables::Replacer::fault(const Place& place, std::string what, std::string hint,
+                                                Code code) {
+    graph_error(diagnostics_, place, std::move(what), std::move(hint), {}, code);
     failed_ = true;
     return std::nullopt;
 }
@@ -302,7 +304,9 @@ std::optional<Value> Variables::Replacer::value_of(const Piece& piece, const Pla
 
 std::optional<Value> Variables::Replacer::variable(const std::string& name, const Place& use) {
     const Variable* found = variables_.find(name);
-    if (found == nullptr) return fault(use, fmt::format("unknown variable {}", in_quotes(name)), hint(name));
+    if (found == nullptr)
+        return fault(use, fmt::format("unknown variable {}", in_quotes(name)), hint(name),
+                     Code::kUnknownVariable);
     if (found->faulty) {
         failed_ = true;
         return std::nullopt;

@@ -30,7 +30,8 @@ public:
 private:
     class Names;
 
-    std::optional<Value> fault(const Place& place, std::string what, std::string hint = {});
+    std::optional<Value> fault(const Place& place, std::string what, std::string hint = {},
+                               Code code = Code::kWrongValue);
     Value replace_string(const Value& string, std::size_t depth);
     Value evaluated(const Value& string);
     Value moved(const Value& animation, const Guide& guide);

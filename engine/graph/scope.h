@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/base/api.h"
+#include "engine/base/code.h"
 #include "engine/graph/variables.h"
 
 #include <filesystem>
@@ -38,6 +39,7 @@ struct Scope {
     std::map<std::string, std::optional<Value>> inputs =
         {};                                       // of the group: links as written there; none: not connected
     std::map<std::string, GroupUse> groups = {};  // those used in it, by the ids that they have in it
+    std::vector<Code> meant = {};                 // mistakes that are none in the group
     std::string use = {};                         // for messages: ", used at shot.json:7:5"
 };
 

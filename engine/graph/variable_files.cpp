@@ -54,7 +54,8 @@ private:
                 diagnostics_, name.place,
                 fmt::format("'include' is {}; it must be the name of a file of variables, or a "
                             "list of them",
-                            name.shown()));
+                            name.shown()),
+                {}, {}, Code::kWrongValue);
         if (auto value = read_file(folder_ / file.text, name.place, diagnostics_))
             sources.files.push_back(std::move(*value));
     }

@@ -95,6 +95,14 @@ std::vector<std::pair<std::string, Value>> Variables::given() const {
     return out;
 }
 
+std::vector<Variables::Chosen> Variables::chosen() const {
+    std::vector<Chosen> out;
+    for (const Variable& v : variables_)
+        if (!v.choices.empty())
+            out.push_back({v.name, choice_texts(v.choices), choice_texts({v.resolved}).front()});
+    return out;
+}
+
 std::vector<Member> Variables::unused_by(const std::vector<const Value*>& values) const {
     std::vector<bool> used(variables_.size(), false);
     const auto mark = [&](const Value& value) {
@@ -121,7 +129,8 @@ void Variables::declare(const Value& declared, bool is_own, Diagnostics& diagnos
     if (!declared.is(Value::Kind::kObject))
         graph_error(diagnostics, declared.place,
                     fmt::format("{} must be an object, not {}",
-                                is_own ? "'variables'" : "a file of variables", kind_name(declared.kind)));
+                                is_own ? "'variables'" : "a file of variables", kind_name(declared.kind)),
+                    {}, {}, Code::kWrongValue);
     for (const Member& member : declared.members) declare_one(member, is_own, diagnostics);
 }
 
@@ -147,7 +156,7 @@ void Variables::override_one(const std::string& name, const Value& value, Diagno
     if (at == index_.end()) {
         const std::string hint = did_you_mean(name, names());
         return graph_error(diagnostics, value.place, "unknown variable " + in_quotes(name),
-                           hint.empty() ? declared_names() : hint);
+                           hint.empty() ? declared_names() : hint, {}, Code::kUnknownVariable);
     }
     Variable& variable = variables_[at->second];
     const bool is_text = declared_kind(variable) == Value::Kind::kString;
@@ -228,7 +237,8 @@ void Variables::report_loops(const std::vector<std::vector<std::size_t>>& uses,
         if (path.size() > kMostListed) chain += "… → ";
         graph_error(
             diagnostics, variables_[i].value.place,
-            fmt::format("variables use each other in a loop: {}{}", chain, in_quotes(variables_[i].name)));
+            fmt::format("variables use each other in a loop: {}{}", chain, in_quotes(variables_[i].name)), {},
+            {}, Code::kCycle);
     }
 }
 
@@ -263,7 +273,7 @@ bool Variables::is_choice(const Variable& variable, const Value& value, Diagnost
     const std::string fault = choice_fault(variable.name, value, variable.choices);
     if (!fault.empty())
         graph_error(diagnostics, variable.value.place, fault,
-                    did_you_mean(value.text, choice_texts(variable.choices)));
+                    did_you_mean(value.text, choice_texts(variable.choices)), {}, Code::kWrongValue);
     return fault.empty();
 }
 

@@ -91,6 +91,14 @@ public:
     // Every variable in the order of their names, with its value as given, whose place says by whom.
     std::vector<std::pair<std::string, Value>> given() const;
 
+    // A variable that has choices: these, and which of them it is.
+    struct Chosen {
+        std::string name;
+        std::vector<std::string> choices;
+        std::string now;
+    };
+    std::vector<Chosen> chosen() const;
+
     // Those of the graph's own that neither these values use nor a variable that they use; as declared.
     std::vector<Member> unused_by(const std::vector<const Value*>& values) const;
 

@@ -15,6 +15,19 @@ namespace KEYLINE_API keyline {
 // Whether the picture helper reads and writes files of this name: all but OpenEXR's.
 bool is_other_format(const std::filesystem::path& file);
 
+// Whether files of this name can only hold whole numbers, which are made for a display unless somebody says
+// otherwise.
+bool holds_whole_numbers(const std::filesystem::path& file);
+
+struct SinkSpec;
+
+// What a picture becomes in a file of another format: in whole numbers; with R G B divided by A.  Nothing of
+// either where the format can't hold it, which is told elsewhere.
+struct InOtherFormat {
+    bool whole_numbers = false, divided = false;
+};
+InOtherFormat in_other_format(const std::filesystem::path& file, const SinkSpec& spec);
+
 // Whether the program was started and still runs.
 bool picture_helper_runs();
 

@@ -4,6 +4,7 @@
 
 #include "engine/base/bad_value.h"
 #include "engine/base/channels.h"
+#include "engine/io/other_formats.h"
 
 #include <algorithm>
 #include <cctype>
@@ -132,18 +133,19 @@ const OutputFormat& output_format(const std::filesystem::path& file) {
     const std::string what = is_number  // of a frame; an empty one too
                                  ? "the name has no extension to tell the format"
                                  : fmt::format("no format is written as {}", in_quotes("." + extension));
-    fail(ErrorKind::kGraph, fmt::format("{}: {}", file.string(), what), "use one of " + spaced(known));
+    fail(Code::kFormat, ErrorKind::kGraph, fmt::format("{}: {}", file.string(), what),
+         "use one of " + spaced(known));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what,
                          const std::string& hint) {
-    fail(ErrorKind::kGraph, fmt::format("{}: {}", file.string(), what), hint);
+    fail(Code::kFormat, ErrorKind::kGraph, fmt::format("{}: {}", file.string(), what), hint);
 }
 
 // Where it is not the file's name that is wrong.
 [[noreturn]] void refuse_value(const std::string& value, const std::filesystem::path& file,
                                const std::string& what, const std::string& hint) {
-    throw BadValue(value, fmt::format("{}: {}", file.string(), what), hint);
+    throw BadValue(value, fmt::format("{}: {}", file.string(), what), hint, Code::kFormat);
 }
 
 std::optional<std::size_t> index_of(const std::vector<ChannelInfo>& channels, std::string_view name) {
@@ -186,7 +188,7 @@ std::vector<std::string> letters(std::string_view set) {
     refuse(file,
            fmt::format("{} can't hold {}; it holds {}", format.name, some_of(names_beside(set, channels)),
                        listed(sets)),
-           "leave channels out with 'channels'");
+           "leave channels out with 'channels', or take one: NODE:NAME, also in --output NODE:NAME=FILE");
 }
 
 ChannelOrder order_of(const std::filesystem::path& file, const OutputFormat& format,
@@ -270,6 +272,24 @@ void refuse_ids(const std::filesystem::path& file, const OutputFormat& format,
 
 bool OutputFormat::holds(std::string_view channel_set) const {
     return std::ranges::find(channel_sets, channel_set) != channel_sets.end();
+}
+
+bool holds_whole_numbers(const std::filesystem::path& file) {
+    const std::string extension = extension_of(file);
+    return std::ranges::any_of(output_formats(), [&](const OutputFormat& format) {
+        return std::ranges::find(format.extensions, extension) != format.extensions.end() &&
+               std::ranges::find(format.depths, kF) == format.depths.end();
+    });
+}
+
+InOtherFormat in_other_format(const std::filesystem::path& file, const SinkSpec& spec) {
+    if (!is_other_format(file)) return {};
+    try {
+        const PictureLayout layout = picture_layout(file, spec);
+        return {layout.depth != Depth::kFloat, layout.order.alpha && layout.format.straight_alpha};
+    } catch (const Failure&) {
+        return {};
+    }
 }
 
 PictureLayout picture_layout(const std::filesystem::path& file, const SinkSpec& spec) {

@@ -20,7 +20,8 @@ std::string read_text_file(const std::filesystem::path& file) {
     };
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);
-    if (status.type() == std::filesystem::file_type::not_found) refuse("no such file");
+    if (status.type() == std::filesystem::file_type::not_found)
+        fail(Code::kFileMissing, ErrorKind::kInput, file.string() + ": no such file");
     if (error) refuse(error.message());
     if (status.type() != std::filesystem::file_type::regular) refuse("it is no regular file");
     if (std::filesystem::file_size(file, error) > kMostText)

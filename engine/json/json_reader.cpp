@@ -56,8 +56,8 @@ private:
     Place place(const TextCursor& at) const {
         return option_ ? Place{source_, 0, 0} : Place{source_, at.line(), at.column()};
     }
-    [[noreturn]] void refuse(std::string what) const {
-        throw Failure({ErrorKind::kGraph, place(token_), {}, std::move(what), {}});
+    [[noreturn]] void refuse(std::string what, Code code = Code::kSyntax) const {
+        throw Failure({ErrorKind::kGraph, place(token_), {}, std::move(what), {}, Passing::kNever, code});
     }
     void to_token();
     void take_string();
@@ -165,7 +165,7 @@ bool Builder::key(std::string& name) {
     const auto [first, fresh] = parent.lines.try_emplace(name, token_.line());
     if (!fresh) {
         const std::string line = option_ ? "" : fmt::format("; it was first given at line {}", first->second);
-        refuse(fmt::format("key {} is given twice{}", in_quotes(name), line));
+        refuse(fmt::format("key {} is given twice{}", in_quotes(name), line), Code::kDuplicateKey);
     }
     take_string();
     parent.key = std::move(name);
@@ -185,7 +185,13 @@ bool Builder::parse_error(std::size_t, const std::string& token, const nlohmann:
         fault.hint = fmt::format("the '{}' at line {} is not closed",
                                  open.is(Value::Kind::kArray) ? '[' : '{', open.place.line);
     }
-    throw NotJson({ErrorKind::kGraph, place(fault.at), {}, std::move(fault.what), std::move(fault.hint)});
+    throw NotJson({ErrorKind::kGraph,
+                   place(fault.at),
+                   {},
+                   std::move(fault.what),
+                   std::move(fault.hint),
+                   Passing::kNever,
+                   Code::kSyntax});
 }
 
 Value parse(std::string_view text, const std::string& source, bool option) {
@@ -195,7 +201,9 @@ Value parse(std::string_view text, const std::string& source, bool option) {
                        {source, fault->at.line(), fault->at.column()},
                        {},
                        std::move(fault->what),
-                       std::move(fault->hint)});
+                       std::move(fault->hint),
+                       Passing::kNever,
+                       Code::kSyntax});
     nlohmann::json::sax_parse(text.begin(), text.end(), &builder, nlohmann::json::input_format_t::json,
                               /*strict=*/true, /*ignore_comments=*/!option);
     return builder.take();

@@ -160,7 +160,9 @@ JsonFault fault_after_item(TextCursor at, bool object) {
     at.skip_blanks();
     const char close = object ? '}' : ']';
     if (at.peek() == close) return {comma, fmt::format("there is a ',' too many before the '{}'", close), {}};
-    return object ? fault_in_key(at) : fault_in_value(at);
+    JsonFault fault = object ? fault_in_key(at) : fault_in_value(at);
+    if (object && is_digit(at.peek())) fault.hint = "a number has a point, as 0.5, and no comma";
+    return fault;
 }
 
 JsonFault fault_after_key(TextCursor at) {

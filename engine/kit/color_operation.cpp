@@ -62,22 +62,61 @@ std::optional<Stream> colour_of(const Stream& stream, const std::string& layer) 
     return colour;
 }
 
-}  // namespace
-
-Stream convert_colour(Builder& builder, const Stream& stream, const ColorTransform& transform) {
-    if (transform.identity()) return stream;
-    return add_operation(builder, ColorConvert{transform}, {stream});
+// The stream's R G B are known to be meant for that.
+Stream said(Stream stream, Nature::For colour_for, bool divided) {
+    Nature nature = stream.nature_of_colour();
+    nature.colour_for = colour_for;
+    nature.divided = divided;
+    stream.set_nature_of_colour(nature);
+    return stream;
 }
 
-Stream convert_layers(Builder& builder, const Stream& stream, const ColorTransform& transform) {
-    if (transform.identity()) return stream;
+void tell_of_mistakes(Builder& builder, const Stream& stream, Nature::For from) {
+    const StreamChannel* red = stream.find_spelled("R");
+    if (!red) return;
+    if (red->holds == Holds::kData)
+        builder.warn(Code::kDataConverted, "R G B are measured, as normals are, and no colour",
+                     "leave the conversion out");
+    const Nature nature = stream.nature_of_colour();
+    if (from == Nature::For::kScene && nature.colour_for == Nature::For::kDisplay)
+        builder.warn(Code::kShownTwice,
+                     "the colour is made for a display already, and is taken for scene-linear",
+                     "convert it once; what a file for the screen holds, its 'read' makes scene-linear by "
+                     "'colorspace'");
+    if (nature.divided && stream.find_spelled("A"))
+        builder.warn(Code::kDividedTwice,
+                     "R G B are divided by A already, and are divided once more around the conversion",
+                     "put a 'premultiply' before it");
+}
+
+}  // namespace
+
+Nature::For colour_for(const ColorConfig& colors, const std::string& space) {
+    switch (colors.space_for(space)) {
+        case ColorConfig::SpaceFor::kScene: return Nature::For::kScene;
+        case ColorConfig::SpaceFor::kDisplay: return Nature::For::kDisplay;
+        case ColorConfig::SpaceFor::kUnknown: break;
+    }
+    return Nature::For::kUnknown;
+}
+
+Stream convert_colour(Builder& builder, const Stream& stream, const ColorTransform& transform,
+                      const Conversion& conversion) {
+    if (transform.identity()) return said(stream, conversion.to, stream.nature_of_colour().divided);
+    tell_of_mistakes(builder, stream, conversion.from);
+    // Division by A was told: once is enough.
+    return said(add_operation(builder, ColorConvert{transform}, {stream}), conversion.to, false);
+}
+
+Stream convert_layers(Builder& builder, const Stream& stream, const ColorTransform& transform,
+                      const Conversion& conversion) {
     Stream result = stream;
     std::vector<std::string> layers = layers_of(stream.names());
     layers.insert(layers.begin(), "");
     for (const std::string& layer : layers) {
         const std::optional<Stream> colour = colour_of(stream, layer);
         if (!colour) continue;
-        const Stream converted = convert_colour(builder, *colour, transform);
+        const Stream converted = convert_colour(builder, *colour, transform, conversion);
         for (const StreamChannel& c : converted.channels)
             result.set(stream.find_spelled(join_channel(layer, c.name))->name, c);
         result.window = unite(result.window, converted.window);

@@ -47,7 +47,7 @@ void refuse_colour(const std::vector<std::string>& names, const char* preferred)
     if (names.size() == 1 || !find_spelled(names, "R") || !find_spelled(names, "G") ||
         !find_spelled(names, "B"))
         return;
-    fail(ErrorKind::kGraph,
+    fail(Code::kUnknownChannel, ErrorKind::kGraph,
          fmt::format("there is no channel {}; the input is colour, and its A is none", in_quotes(preferred)),
          "connect what makes it, or take one channel, as in ':A'");
 }
@@ -114,7 +114,8 @@ std::vector<ValueRef> take_channels(Builder& builder, const Stream& stream, cons
     for (const std::size_t i : taken_by(stream, takes)) taken.push_back(stream.channels[i]);
     if (const auto ids = names_of(taken, is_id); !ids.empty()) {
         if (takes.kind == Takes::Kind::kColour)
-            fail(ErrorKind::kGraph, hold_ids(ids) + ", which are no colour", "take a layer of colour");
+            fail(Code::kUnknownChannel, ErrorKind::kGraph, hold_ids(ids) + ", which are no colour",
+                 "take a layer of colour");
         builder.warn(hold_ids(ids) + ", which are taken for numbers");
     }
     std::vector<ValueRef> values;

@@ -102,7 +102,10 @@ Stream mix_back(Builder& builder, const Stream& before, const Stream& after, con
             if (!same) result.set(c);
         } else {
             std::vector<Link> links{link_to(from, name), link_to(to, c.name), mask};
-            result.set({name, builder.add(operation, std::move(links), result.window, 1).front(), c.holds});
+            StreamChannel mixed_channel{
+                name, builder.add(operation, std::move(links), result.window, 1).front(), c.holds};
+            if (same && same->nature == c.nature) mixed_channel.nature = c.nature;
+            result.set(std::move(mixed_channel));
         }
     }
     tell_of_ids(builder, ids);

@@ -30,6 +30,9 @@
 //     write(Builder&)                   a sink
 //     expand(Builder&) -> Stream        a compound of other operations
 //
+// describe(Builder&, Nature&), where there is one, says what is known of the channels that it makes
+// (stream.h), and warns of what can't be meant.
+//
 // compute() takes (const View& in, const MutView& out, Scratch&) and is called for each channel by itself, or
 // (const Inputs& in, Outputs out, Scratch&) and is called once for all.  node_adaptor.h turns such a struct
 // into an Operation, a Gather or a Derivation.
@@ -260,6 +263,10 @@ public:
     }
 
     virtual void warn(std::string what) = 0;
+
+    // The same of a mistake that the graph may say is meant, as the message then tells.  Not told of a graph
+    // that says so.
+    virtual void warn(Code mistake, std::string what, std::string hint) = 0;
 
     // Throws the Failure of a parameter whose value is wrong; its place is added.
     [[noreturn]] virtual void bad_parameter(const char* name, std::string what, std::string hint = {}) = 0;

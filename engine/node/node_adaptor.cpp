@@ -5,6 +5,8 @@
 #include "engine/base/error.h"
 
 #include <algorithm>
+#include <optional>
+#include <string_view>
 
 namespace keyline::detail {
 
@@ -45,8 +47,27 @@ std::vector<Link> make_links(Builder& builder, const std::vector<Port>& ports) {
     return links;
 }
 
+Nature nature_of(const std::vector<Port>& ports) {
+    std::optional<Nature> agreed;
+    bool differs = false;
+    for (const Port& port : ports) {
+        const bool is_colour =
+            port.takes.kind == Takes::Kind::kColour ||
+            (port.takes.kind == Takes::Kind::kNamed && port.takes.names[0] == std::string_view("R"));
+        if (!port.connected || !is_colour) continue;
+        const Nature nature = port.stream.nature_of_colour();
+        if (!agreed) agreed = nature;
+        agreed->divided = agreed->divided && nature.divided;
+        if (agreed->colour_for == Nature::For::kUnknown) agreed->colour_for = nature.colour_for;
+        differs = differs ||
+                  (nature.colour_for != Nature::For::kUnknown && nature.colour_for != agreed->colour_for);
+    }
+    if (differs) agreed->colour_for = Nature::For::kUnknown;
+    return agreed.value_or(Nature{});
+}
+
 Stream make_stream(const Port& lead, const Rect& window, const Makes& makes,
-                   const std::vector<ValueRef>& values) {
+                   const std::vector<ValueRef>& values, const Nature& nature) {
     Stream out = lead.stream;
     out.window = window;
     out.data.clear();
@@ -54,8 +75,11 @@ Stream make_stream(const Port& lead, const Rect& window, const Makes& makes,
     if (!makes.passes_others) out.channels.clear();
     for (std::size_t i = 0; i < values.size(); ++i) {
         const StreamChannel* own = out.find_spelled(makes.channels[i]);  // whose name it keeps
-        out.set(own ? own->name : makes.channels[i], values[i]);
+        StreamChannel made{own ? own->name : makes.channels[i], values[i]};
+        made.nature.slope = nature.slope;
+        out.set(std::move(made));
     }
+    if (std::ranges::find(makes.channels, "R") != makes.channels.end()) out.set_nature_of_colour(nature);
     return out;
 }
 

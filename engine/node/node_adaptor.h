@@ -18,13 +18,13 @@ class Check {
 public:
     Check(const Value& object, ParamReader& reader) : object_(object), reader_(reader) {}
     void error(const char* name, std::string what, std::string hint = {}) {
-        reader_.error(value(name).place, std::move(what), std::move(hint));
+        reader_.error(value(name).place, std::move(what), std::move(hint), Code::kAgainstEachOther);
     }
     // The same of one item of a list, counted from 0.
     void error(const char* list, std::size_t item, std::string what, std::string hint = {}) {
         const Value& v = value(list);
-        reader_.error(item < v.items.size() ? v.items[item].place : v.place, std::move(what),
-                      std::move(hint));
+        reader_.error(item < v.items.size() ? v.items[item].place : v.place, std::move(what), std::move(hint),
+                      Code::kAgainstEachOther);
     }
 
 private:
@@ -234,7 +234,11 @@ namespace detail {
 const Port& leading_port(const std::vector<Port>& ports);
 std::vector<Link> make_links(Builder& builder, const std::vector<Port>& ports);
 Stream make_stream(const Port& lead, const Rect& window, const Makes& makes,
-                   const std::vector<ValueRef>& values);
+                   const std::vector<ValueRef>& values, const Nature& nature);
+
+// What is known of colour that is made of what flows in: that in which all of it agrees of which something is
+// known.
+Nature nature_of(const std::vector<Port>& ports);
 Stream make_data_stream(const std::vector<Port>& ports, const char* kind, ValueRef datum);
 
 template <class T>
@@ -292,7 +296,9 @@ Stream add_together(Builder& builder, const std::shared_ptr<const T>& node, cons
     const Rect window = window_of(*node, *operation, ports, links, makes.channels.size());
     const auto values =
         builder.add(operation, std::move(links), window, static_cast<int>(makes.channels.size()));
-    Stream result = make_stream(leading_port(ports), window, makes, values);
+    Nature nature = nature_of(ports);
+    if constexpr (requires { node->describe(builder, nature); }) node->describe(builder, nature);
+    Stream result = make_stream(leading_port(ports), window, makes, values, nature);
     if constexpr (requires(Metadata & m) { node->edit(m); }) {
         auto metadata = std::make_shared<Metadata>(*result.metadata);
         node->edit(*metadata);

@@ -182,6 +182,17 @@ constexpr const char* kAbout =
     R"json({ "description": "What the node is for, in words.", "type": "string" })json";
 constexpr const char* kOwn = R"json({{ "type": {{ "const": "{}" }}, "about": {} }})json";
 
+// The mistakes that a node may say are none: one, or a list of them.
+Value schema_of_meant() {
+    std::string words;
+    for (const Code code : all_codes())
+        if (can_be_meant(code)) words += fmt::format("{}\"{}\"", words.empty() ? "" : ", ", code_name(code));
+    return parse_json(fmt::format(R"json({{ "description": "What would be warned of, and is right so.",
+                      "anyOf": [ {{ "enum": [{0}] }}, {{ "type": "array", "items": {{ "enum": [{0}] }} }} ] }})json",
+                                  words),
+                      "meant");
+}
+
 FieldInfo enabled_field() {
     return {"enabled",
             "Where it is false, the node passes its leading input on; a node that writes writes nothing.",
@@ -248,6 +259,7 @@ private:
         json_.key("keyline.group").begin_object();
         json_.field("description", "A node whose type is a graph file.  What it takes, that file says.");
         json_.key("properties").begin_object().key("about").value(parse_json(kAbout, "about"));
+        json_.field("meant", schema_of_meant());
         write_schema_of_property(json_, enabled_field());
         json_.end_object().end_object();
     }
@@ -273,7 +285,9 @@ private:
     }
 
     static Value own_of(const std::string& type) {
-        return parse_json(fmt::format(kOwn, type, kAbout), "own");
+        Value out = parse_json(fmt::format(kOwn, type, kAbout), "own");
+        out.members.push_back({"meant", {}, schema_of_meant()});
+        return out;
     }
 
     const std::vector<NodeType>& groups_;

@@ -36,4 +36,18 @@ void Stream::set(StreamChannel channel) {
         *it = std::move(channel);
 }
 
+Nature Stream::nature_of_colour() const {
+    const StreamChannel* red = find_spelled("R");
+    return red && find_spelled("G") && find_spelled("B") ? red->nature : Nature{};
+}
+
+void Stream::set_nature_of_colour(const Nature& nature) {
+    for (const char* name : {"R", "G", "B"})
+        if (const StreamChannel* channel = find_spelled(name)) {
+            StreamChannel said = *channel;
+            said.nature = nature;
+            set(std::move(said));
+        }
+}
+
 }  // namespace keyline

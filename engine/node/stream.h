@@ -33,6 +33,18 @@ enum class Holds : uint8_t {
     kId,      // which object it is: compared, and never computed with
 };
 
+// What is known of how the samples of a channel came to be.  No pixel depends on it: it is there so that
+// mistakes can be told.  Of what no node says anything, nothing is known, and nothing is told.
+struct Nature {
+    // What colour is meant for: the light of a scene, or a display, which must not be given it twice.
+    enum class For : uint8_t { kUnknown, kScene, kDisplay };
+    For colour_for = For::kUnknown;
+    bool divided = false;  // by A: not premultiplied any more
+    bool slope = false;    // how steep the picture is, in lines as wide as their blur
+
+    friend bool operator==(const Nature&, const Nature&) = default;
+};
+
 // What a file says of the channels of one Cryptomatte, rather than of the picture: it goes where they go.
 struct CryptomatteInfo {
     std::string name;    // as the attributes have it: "CryptoObject"
@@ -50,6 +62,7 @@ struct StreamChannel {
     bool integer = false;  // the bits of an unsigned integer stand in each sample, instead of a float
     std::shared_ptr<const CryptomatteInfo> cryptomatte = {};  // that it is a channel of; null: of none
     int place = 0;  // in the Cryptomatte: 4 × level, and 0 to 3 for r g b a
+    Nature nature = {};
 
     // Whether its samples stand for themselves only: no node may make others of them, no file round them.
     bool exact() const { return holds == Holds::kId || cryptomatte != nullptr; }
@@ -80,6 +93,10 @@ struct Stream {
     // so.
     void set(StreamChannel channel);
     void set(std::string_view name, ValueRef value) { set(StreamChannel{std::string(name), value}); }
+
+    // What is known of the colour in R G B, where they are there.
+    Nature nature_of_colour() const;
+    void set_nature_of_colour(const Nature& nature);
 
     // The channel under another name, and all that it is.
     void set(std::string_view name, StreamChannel channel) {

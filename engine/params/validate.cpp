@@ -20,9 +20,10 @@ std::filesystem::path PathBase::of(const Place& place) const {
 ParamReader::ParamReader(Diagnostics& diagnostics, std::string node, PathBase base)
     : diagnostics_(diagnostics), node_(std::move(node)), base_(std::move(base)) {}
 
-void ParamReader::error(const Place& place, std::string what, std::string hint) {
+void ParamReader::error(const Place& place, std::string what, std::string hint, Code code) {
     failed_ = true;
-    diagnostics_.error({ErrorKind::kGraph, place, node_, std::move(what), std::move(hint)});
+    diagnostics_.error(
+        {ErrorKind::kGraph, place, node_, std::move(what), std::move(hint), Passing::kNever, code});
 }
 
 namespace {
@@ -73,7 +74,24 @@ private:
     void wrong_kind(const TypeInfo& type, const Value& value) const {
         const std::string kind =
             value.is(Value::Kind::kNull) ? "" : fmt::format(", {}", kind_name(value.kind));
-        must_be(value, kind, type.text(), in_needless_quotes(type, value) ? "leave out the quotes" : "");
+        must_be(value, kind, type.text(), way_out(type, value));
+    }
+
+    // What people write who are used to other forms.
+    static std::string way_out(const TypeInfo& type, const Value& value) {
+        const bool may_move = type.kind == Kind::kNumber || type.kind == Kind::kInteger ||
+                              type.kind == Kind::kPair || type.kind == Kind::kColor ||
+                              type.kind == Kind::kNumbers;
+        if (value.is(Value::Kind::kObject) && may_move)
+            return "a value that moves is { \"keys\": [[FRAME, VALUE], …] }";
+        const std::size_t comma = value.text.find(',');
+        const bool is_number = value.is(Value::Kind::kString) && comma != std::string::npos &&
+                               value.text.find_first_not_of("-0123456789,") == std::string::npos &&
+                               value.text.find(',', comma + 1) == std::string::npos;
+        if (in_needless_quotes(type, value)) return "leave out the quotes";
+        if (!is_number || !may_move) return {};
+        return fmt::format("a number has a point: {}.{}", value.text.substr(0, comma),
+                           value.text.substr(comma + 1));
     }
 
     // Whether it is the text of a value that would do.
@@ -156,7 +174,8 @@ void unknown_key(const Member& member, const std::vector<FieldInfo>& fields, Par
     for (const FieldInfo& f : fields) known.push_back(f.name);
     std::string hint = did_you_mean(member.key, known);
     if (hint.empty()) hint = known.empty() ? "it takes none" : "known are " + listed(known);
-    reader.error(member.key_place, "unknown key " + in_quotes(member.key), std::move(hint));
+    reader.error(member.key_place, "unknown key " + in_quotes(member.key), std::move(hint),
+                 Code::kUnknownKey);
 }
 
 }  // namespace
@@ -172,7 +191,8 @@ void validate(const std::vector<FieldInfo>& fields, const Value& object, ParamRe
         else if (f.required)
             reader.error(object.place,
                          fmt::format("{} '{}' is missing",
-                                     f.type.kind == Kind::kInput ? "input" : "parameter", f.name));
+                                     f.type.kind == Kind::kInput ? "input" : "parameter", f.name),
+                         {}, Code::kMissingKey);
     for (const Member& m : object.members)
         if (std::ranges::find(fields, m.key, &FieldInfo::name) == fields.end())
             unknown_key(m, fields, reader);

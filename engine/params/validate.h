@@ -24,7 +24,7 @@ class ParamReader {
 public:
     ParamReader(Diagnostics& diagnostics, std::string node, PathBase base);
 
-    void error(const Place& place, std::string what, std::string hint = {});
+    void error(const Place& place, std::string what, std::string hint = {}, Code code = Code::kWrongValue);
     bool failed() const { return failed_; }
     const PathBase& base() const { return base_; }
 

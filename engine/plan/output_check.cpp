@@ -186,8 +186,8 @@ public:
     void refuse(int sink, std::string what) {
         if (!told_.insert(sink).second) return;
         const GraphNode& node = graph_.nodes()[index(sink)];
-        diagnostics_.error(
-            {ErrorKind::kGraph, node.place, node.title(), std::move(what), "write to another file"});
+        diagnostics_.error({ErrorKind::kGraph, node.place, node.title(), std::move(what),
+                            "write to another file", Passing::kNever, Code::kSameFile});
     }
 
 private:
@@ -234,7 +234,8 @@ void refuse_fixed_outputs(const Graph& graph, std::span<const int> frames, Diagn
             {ErrorKind::kGraph, file ? file->place : node.place, node.title(),
              fmt::format("frames {} would all be written to {}",
                          format_frames({frames.begin(), frames.end()}), file ? file->shown() : "one file"),
-             "a run of # in the name stands for the frame, as in \"out.####.exr\""});
+             "a run of # in the name stands for the frame, as in \"out.####.exr\"", Passing::kNever,
+             Code::kOneFile});
     }
 }
 
@@ -259,7 +260,7 @@ void check_outputs(const ResolvedFrame& frame, Diagnostics& diagnostics) {
         if (!is_new)
             diagnostics.error({ErrorKind::kGraph, sink.place, sink.title,
                                fmt::format("{} is {}", in_quotes(sink.request.file.string()), it->second),
-                               "write to another file"});
+                               "write to another file", Passing::kNever, Code::kSameFile});
     }
 }
 
@@ -287,6 +288,7 @@ void check_places(const ResolvedFrame& frame, Diagnostics& diagnostics) {
             Error e = f.error();
             e.place = sink.place;
             e.node = sink.title;
+            e.code = Code::kCantWrite;
             diagnostics.error(std::move(e));
         }
     }

@@ -353,10 +353,18 @@ public:
         warnings_.push_back({ErrorKind::kFailed, node_.place, title(), std::move(what), {}});
     }
 
+    // Told at the first frame: what a later one would say again is no news.
+    void warn(Code mistake, std::string what, std::string hint) override {
+        if (is_meant(mistake) || resolver_.options_.known_sound) return;
+        hint += fmt::format("; \"meant\": \"{}\" says that it is right so", code_name(mistake));
+        warnings_.push_back({ErrorKind::kGraph, node_.place, title(), std::move(what), std::move(hint),
+                             Passing::kNever, mistake});
+    }
+
     void bad_parameter(const char* name, std::string what, std::string hint) override {
         const Value* v = node_.object.find(name);
-        throw Failure(
-            {ErrorKind::kGraph, v ? v->place : node_.place, title(), std::move(what), std::move(hint)});
+        throw Failure({ErrorKind::kGraph, v ? v->place : node_.place, title(), std::move(what),
+                       std::move(hint), Passing::kNever, Code::kWrongValue});
     }
 
     // The node is whole: its warnings hold.
@@ -410,6 +418,16 @@ private:
             if (const Place* place = place_in(m.value, member ? *member : given, value)) return place;
         }
         return nullptr;
+    }
+
+    bool is_meant(Code mistake) const {
+        const auto names_it = [&](const std::vector<Code>& meant) {
+            return std::ranges::find(meant, mistake) != meant.end();
+        };
+        if (names_it(node_.meant)) return true;
+        for (const Scope* scope = node_.scope.get(); scope; scope = scope->outer)
+            if (names_it(scope->meant)) return true;
+        return false;
     }
 
     void check_format(const SinkRequest& request) {

@@ -17,13 +17,13 @@ constexpr double kManyTimes = 16, kManyPixels = 0x1p26;
 
 double pixels(const Rect& window) { return static_cast<double>(window.area()); }
 
+}  // namespace
+
 double stored_bytes(const SinkSpec& spec) {
     double pixel = 0;
     for (const ChannelInfo& c : spec.channels) pixel += static_cast<double>(sample_size(c.type));
     return pixel * pixels(spec.data_window);
 }
-
-}  // namespace
 
 void check_sizes(const ResolvedFrame& frame, Diagnostics& diagnostics) {
     for (const Sink& sink : frame.sinks) {

@@ -156,6 +156,7 @@ struct Math {
             if (params.b) links[1].values = {operand(builder, b, c.name)};
             result.window = result_window(*operation, links, 1);
             c.value = builder.add(operation, std::move(links), result.window, 1).front();
+            c.nature = known_of(c.nature);
         }
         return result;
     }
@@ -163,6 +164,17 @@ struct Math {
     const Params params;
 
 private:
+    // Sums, factors and limits leave light what it is; a factor may be the A.
+    Nature known_of(Nature nature) const {
+        using enum MathOperation;
+        const bool is_factor = params.op == kMultiply || params.op == kDivide;
+        const bool is_line = is_factor || params.op == kAdd || params.op == kSubtract || params.op == kMin ||
+                             params.op == kMax || params.op == kClamp;
+        if (!is_line) nature.colour_for = Nature::For::kUnknown;
+        if (!is_line || is_factor) nature.divided = false;
+        return nature;
+    }
+
     static ValueRef operand(Builder& builder, const Stream& b, const std::string& name) {
         if (b.channels.size() == 1) return as_number(builder, b.channels[0], b.window);
         const std::vector<std::string> wanted{name};

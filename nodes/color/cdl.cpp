@@ -40,10 +40,13 @@ struct Cdl {
     explicit Cdl(const Params& p) : params(p) {}
 
     Stream expand(Builder& builder) const {
+        const Stream in = builder.input(params.in);
+        const Nature::For kept = in.nature_of_colour().colour_for;
         return convert_colour(
-            builder, builder.input(params.in),
+            builder, in,
             builder.colors().decide({params.slope, params.offset, params.power, params.saturation},
-                                    params.inverse));
+                                    params.inverse),
+            {kept, kept});
     }
 
     const Params params;

@@ -30,8 +30,10 @@ struct Colorspace {
     explicit Colorspace(Params p) : params(std::move(p)) {}
 
     Stream expand(Builder& builder) const {
-        return convert_colour(builder, builder.input(params.in),
-                              builder.colors(params.context)->convert(params.from, params.to));
+        const auto colors = builder.colors(params.context);
+        const ColorTransform transform = colors->convert(params.from, params.to);
+        return convert_colour(builder, builder.input(params.in), transform,
+                              {colour_for(*colors, params.from), colour_for(*colors, params.to)});
     }
 
     const Params params;

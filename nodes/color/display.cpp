@@ -32,9 +32,10 @@ struct Display {
     explicit Display(Params p) : params(std::move(p)) {}
 
     Stream expand(Builder& builder) const {
-        return convert_colour(
-            builder, builder.input(params.in),
-            builder.colors(params.context)->display(params.from, params.display, params.view));
+        const auto colors = builder.colors(params.context);
+        return convert_colour(builder, builder.input(params.in),
+                              colors->display(params.from, params.display, params.view),
+                              {colour_for(*colors, params.from), Nature::For::kDisplay});
     }
 
     const Params params;

@@ -284,7 +284,8 @@ private:
         for (std::size_t i = 0; i < shown.channels.size(); ++i)
             colour.set(kNames[i], shown.channels[i].value);
         if (params.referred == Referred::kScene)
-            colour = convert_colour(builder, colour, builder.colors().display("scene_linear", "", ""));
+            colour = convert_colour(builder, colour, builder.colors().display("scene_linear", "", ""),
+                                    {Nature::For::kScene, Nature::For::kDisplay});
         return colour.find("A") ? add(builder, std::make_shared<const OverBoard>(), colour, {}) : colour;
     }
 

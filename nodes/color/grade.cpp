@@ -4,6 +4,7 @@
 #include "engine/node/pixel_loop.h"
 #include "engine/simd/color_rows.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace keyline {
@@ -48,6 +49,12 @@ struct Grade {
     }
 
     explicit Grade(const Params& p) : in(p.in), curves{curve(p, 0), curve(p, 1), curve(p, 2)} {}
+
+    // A gamma makes the colour something else; what, only its author knows.
+    void describe(Builder&, Nature& nature) const {
+        if (std::ranges::any_of(curves, [](const Curve& c) { return c.exponent != 1; }))
+            nature.colour_for = Nature::For::kUnknown;
+    }
 
     double cost() const { return 60; }
 

@@ -29,9 +29,11 @@ struct Look {
     explicit Look(Params p) : params(std::move(p)) {}
 
     Stream expand(Builder& builder) const {
-        return convert_colour(
-            builder, builder.input(params.in),
-            builder.colors(params.context)->look(params.space, params.look, params.inverse));
+        const Stream in = builder.input(params.in);
+        const Nature::For kept = in.nature_of_colour().colour_for;
+        return convert_colour(builder, in,
+                              builder.colors(params.context)->look(params.space, params.look, params.inverse),
+                              {kept, kept});
     }
 
     const Params params;

@@ -21,6 +21,8 @@ struct Premultiply {
 
     explicit Premultiply(const Params& p) : in(p.in) {}
 
+    static void describe(Builder&, Nature& nature) { nature.divided = false; }
+
     void compute(const Inputs& inputs, Outputs out, Scratch&) const {
         const std::span<const View> rgba = inputs[in];
         for (std::size_t c = 0; c < out.size(); ++c)

@@ -22,6 +22,12 @@ struct Unpremultiply {
 
     explicit Unpremultiply(const Params& p) : in(p.in) {}
 
+    static void describe(Builder& builder, Nature& nature) {
+        if (nature.divided)
+            builder.warn(Code::kDividedTwice, "R G B are divided by A already", "divide once");
+        nature.divided = true;
+    }
+
     void compute(const Inputs& inputs, Outputs out, Scratch&) const {
         const std::span<const View> rgba = inputs[in];
         for (std::size_t c = 0; c < out.size(); ++c)

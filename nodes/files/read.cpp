@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/base/absent_input.h"
 #include "engine/io/mended_source.h"
+#include "engine/io/other_formats.h"
 #include "engine/kit/color_operation.h"
 #include "engine/node/node_adaptor.h"
 #include "engine/params/missing_file.h"
@@ -67,14 +68,27 @@ struct Read {
     explicit Read(const Params& p) : params(p) {}
 
     Stream read(Builder& builder) const {
-        Stream stream = builder.add_source(mended(open(builder), params.nan));
-        if (params.colorspace.empty()) return stream;
-        return convert_layers(builder, stream, builder.colors().convert(params.colorspace, "scene_linear"));
+        const auto source = open(builder);
+        Stream stream = builder.add_source(mended(source, params.nan));
+        if (params.colorspace.empty()) return known(stream, source->header().file);
+        return convert_layers(builder, stream, builder.colors().convert(params.colorspace, "scene_linear"),
+                              {Nature::For::kUnknown, Nature::For::kScene});
     }
 
     const Params params;
 
 private:
+    // What files of its kind hold, where nobody says otherwise.
+    static Stream known(Stream stream, const std::filesystem::path& file) {
+        const bool is_exr = !is_other_format(file);
+        const auto colour_for = is_exr                      ? Nature::For::kScene
+                                : holds_whole_numbers(file) ? Nature::For::kDisplay
+                                                            : Nature::For::kUnknown;
+        for (StreamChannel& c : stream.channels)
+            if (c.holds == Holds::kColour && !c.exact()) c.nature.colour_for = colour_for;
+        return stream;
+    }
+
     static std::optional<int> offset(const std::string& text) {
         const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
         int value = 0;

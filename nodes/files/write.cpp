@@ -8,19 +8,22 @@
 #include "engine/node/node_adaptor.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <set>
 
 namespace keyline {
 
 constexpr auto words(Depth) {
-    return std::array{Word<Depth>{"auto", Depth::kAuto,
-                                  "the file's own type for what passed untouched, else half (ids and "
-                                  "Cryptomattes 32 bits), or the best the format holds"},
-                      Word<Depth>{"half", Depth::kHalf, "16-bit float"},
-                      Word<Depth>{"float", Depth::kFloat, "32-bit float"},
-                      Word<Depth>{"uint8", Depth::kUint8, "8 bits, 0 to 1"},
-                      Word<Depth>{"uint16", Depth::kUint16, "16 bits, 0 to 1"}};
+    return std::array{
+        Word<Depth>{"auto", Depth::kAuto,
+                    "the file's own type for what passed untouched, else half (float for what is "
+                    "measured, as depth is; ids and Cryptomattes 32 bits), or the best the "
+                    "format holds"},
+        Word<Depth>{"half", Depth::kHalf, "16-bit float"},
+        Word<Depth>{"float", Depth::kFloat, "32-bit float"},
+        Word<Depth>{"uint8", Depth::kUint8, "8 bits, 0 to 1"},
+        Word<Depth>{"uint16", Depth::kUint16, "16 bits, 0 to 1"}};
 }
 
 namespace {
@@ -59,13 +62,15 @@ struct Write {
         SinkRequest request;
         request.stream = chosen(with_layers(builder));
         if (!params.colorspace.empty())
-            request.stream = convert_layers(builder, request.stream,
-                                            builder.colors().convert("scene_linear", params.colorspace));
+            request.stream = convert_layers(
+                builder, request.stream, builder.colors().convert("scene_linear", params.colorspace),
+                {Nature::For::kScene, colour_for(builder.colors(), params.colorspace)});
         request.file = params.file.at(builder.frame());
         // Formats without windows hold what is displayed; what lies beyond is not computed for them.
         if (is_other_format(request.file))
             request.stream.window = intersect(request.stream.window, request.stream.display);
         request.spec = spec(builder, request.stream, request.file);
+        tell_of_mistakes(builder, request);
         request.check = [file = request.file](const SinkSpec& s) { check_image(file, s); };
         request.create = [file = request.file](const SinkSpec& s) { return create_image(file, s); };
         builder.add_sink(std::move(request));
@@ -140,8 +145,53 @@ private:
         const auto stored = builder.stored_type(channel.value);
         // Half would round ids, and the coverage is read with them.
         if (channel.exact()) return stored.value_or(channel.integer ? SampleType::kUint : SampleType::kFloat);
-        if (params.depth == Depth::kAuto) return stored.value_or(SampleType::kHalf);
+        // What is measured reaches beyond half, and half is too coarse for it.
+        const bool is_measured = channel.holds == Holds::kData;
+        if (params.depth == Depth::kAuto)
+            return stored.value_or(is_measured ? SampleType::kFloat : SampleType::kHalf);
         return params.depth == Depth::kHalf ? SampleType::kHalf : SampleType::kFloat;
+    }
+
+    void tell_of_mistakes(Builder& builder, const SinkRequest& request) const {
+        const Nature nature = request.stream.nature_of_colour();
+        const InOtherFormat becomes = in_other_format(request.file, request.spec);
+        if (becomes.whole_numbers && nature.colour_for == Nature::For::kScene)
+            builder.warn(Code::kLinearInFile,
+                         fmt::format("scene-linear colour goes into {}, which is looked at as it is: it will "
+                                     "be too dark",
+                                     in_quotes(request.file.filename().string())),
+                         "put a 'display' before it, or give the file's 'colorspace'");
+        if (becomes.divided && nature.divided)
+            builder.warn(Code::kDividedTwice,
+                         "R G B are divided by A already, and the file's format divides once more",
+                         "put a 'premultiply' before it");
+        if (params.depth == Depth::kHalf) tell_of_depth(builder, request.stream);
+    }
+
+    static void tell_of_depth(Builder& builder, const Stream& stream) {
+        std::vector<std::string> names;
+        for (const StreamChannel& c : stream.channels)
+            if (is_depth(stream, c) && builder.stored_type(c.value) != SampleType::kHalf)
+                names.push_back(c.name);
+        if (!names.empty())
+            builder.warn(
+                Code::kDepthInHalf,
+                fmt::format("{}: half ends at 65504, and holds three digits of a depth", some_of(names)),
+                "leave 'depth' out: what is measured is then written as float");
+    }
+
+    // A Z without X and Y, which would make it a place or a direction.
+    static bool is_depth(const Stream& stream, const StreamChannel& channel) {
+        if (channel.holds != Holds::kData || channel.exact()) return false;
+        const auto [layer, base] = split_channel(channel.name);
+        return component_of(base) == "Z" ? !stream.find_spelled(join_channel(layer, "X"))
+                                         : is_called_depth(std::string(base));
+    }
+
+    static bool is_called_depth(std::string name) {
+        std::ranges::transform(name, name.begin(),
+                               [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        return name.ends_with("depth");
     }
 
     static void tell_of_whole(Builder& builder, const SinkSpec& spec) {

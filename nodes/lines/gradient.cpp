@@ -39,6 +39,8 @@ struct Gradient {
 
     Halo halo() const { return {1, 1}; }
 
+    static void describe(Builder&, Nature& nature) { nature.slope = true; }
+
     void compute(const Inputs& inputs, Outputs out, Scratch& scratch) const {
         const std::span<const View> channels = inputs[in];
         const Rect& rect = out[0].rect;

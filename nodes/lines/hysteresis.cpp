@@ -127,6 +127,7 @@ struct Hysteresis {
 
     Stream expand(Builder& builder) const {
         Stream strength = builder.input(in);
+        tell_of_slope(builder, strength);
         strength.channels = {{"magnitude", take_channels(builder, strength, matte("magnitude")).front()}};
         const Stream bits = add_operation(builder, FindEdges{}, {strength, thresholds(builder, strength)});
         return add_operation(builder, DrawBits{}, {bits});
@@ -137,6 +138,14 @@ struct Hysteresis {
     const Units units;
 
 private:
+    // What is wide before is wide behind.
+    static void tell_of_slope(Builder& builder, const Stream& strength) {
+        const StreamChannel* magnitude = strength.find_spelled("magnitude");
+        if (magnitude && magnitude->nature.slope)
+            builder.warn(Code::kNotThinned, "the slope is as wide as its blur, and so will the lines be",
+                         "put an 'nms' before it, which thins it");
+    }
+
     Stream thresholds(Builder& builder, const Stream& strength) const {
         if (units == Units::kAbsolute) return add_operation(builder, Fixed{{low, high}}, {});
         if (units == Units::kPercentile)

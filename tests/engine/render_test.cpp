@@ -36,7 +36,12 @@ protected:
                 {"change", {{"type", "change"}, {"in", "grey"}}},
                 {"soft", {{"type", "gaussian"}, {"in", "change"}}},
                 {"slope", {{"type", "gradient"}, {"in", "soft"}}},
-                {"edges", {{"type", "hysteresis"}, {"in", "slope"}, {"low", 0.1}, {"units", "max"}}},
+                {"edges",
+                 {{"type", "hysteresis"},
+                  {"in", "slope"},
+                  {"low", 0.1},
+                  {"units", "max"},
+                  {"meant", "not-thinned"}}},
                 {"ink", {{"type", "ink"}, {"in", "edges"}}},
                 {"comp", {{"type", "over"}, {"fg", "ink"}, {"bg", "in"}}},
                 {"out", {{"type", "write"}, {"in", "comp"}, {"file", (folder_ / "out.####.exr").string()}}}};

@@ -127,7 +127,8 @@ TEST(ImageIoErrors, ChannelsThatTheFormatLacks) {
     EXPECT_EQ(z.what,
               "png can't hold 'Z' and 'Normal.X'; it holds 'one channel of any name', 'Y A', 'R G B' and 'R "
               "G B A'");
-    EXPECT_EQ(z.hint, "leave channels out with 'channels'");
+    EXPECT_EQ(z.hint,
+              "leave channels out with 'channels', or take one: NODE:NAME, also in --output NODE:NAME=FILE");
     EXPECT_EQ(error_of_writing("a.jpg", {"R", "G", "B", "A"}).what,
               "jpeg can't hold 'A'; it holds 'one channel of any name' and 'R G B'");
     EXPECT_EQ(

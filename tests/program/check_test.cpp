@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/io/exr_files.h"
 #include "tests/program/program.h"
 
 #include <fmt/format.h>
@@ -82,6 +83,7 @@ TEST_F(CheckCommand, ForPrograms) {
     EXPECT_EQ(message["kind"], "graph");
     EXPECT_EQ(message["place"], (nlohmann::json{{"file", "a.json"}, {"line", 1}, {"column", 55}}));
     EXPECT_EQ(message["node"], "node 'c' (constant)");
+    EXPECT_EQ(message["code"], "unknown-key");
     EXPECT_EQ(message["what"], "unknown key 'sise'");
     EXPECT_EQ(message["hint"], "did you mean 'size'?");
     EXPECT_EQ(told[1],
@@ -123,6 +125,40 @@ TEST_F(CheckCommand, FramesThatDifferAreTold) {
     EXPECT_THAT(run.err, HasSubstr("are new, which were not there in frame 2"));
     EXPECT_THAT(run.err, HasSubstr("'ViewLayer.UV.V' are float, and half before in frame 2"));
     EXPECT_EQ(check({"graph.json", "--frames", "1-2"}).err, "");
+}
+
+TEST_F(CheckCommand, AColourSpaceThatChangesIsTold) {
+    const auto frame = [&](int number, std::vector<float> chromaticities) {
+        SinkSpec spec;
+        spec.display_window = spec.data_window = {0, 0, 8, 8};
+        if (!chromaticities.empty())
+            spec.metadata.set({"chromaticities", "chromaticities", std::move(chromaticities)});
+        Image image;
+        for (const char* name : {"R", "G", "B"}) image[name] = Pixels(SampleType::kHalf, spec.data_window);
+        write_with_keyline(folder() / fmt::format("s.{:04}.exr", number), std::move(image), spec);
+    };
+    const std::vector<float> rec709{0.64F, 0.33F, 0.3F, 0.6F, 0.15F, 0.06F, 0.3127F, 0.329F};
+    frame(1, rec709);
+    frame(2, rec709);
+    frame(3, {});
+    graph(R"("r": { "type": "read", "file": "s.####.exr" },
+             "out": { "type": "write", "in": "r", "file": "out.####.exr" })");
+    EXPECT_EQ(check({"graph.json", "--frames", "1-2"}).err, "");
+    EXPECT_THAT(
+        check({"graph.json", "--frames", "1-3"}).err,
+        HasSubstr("node 'r' (read), frame 3: the colour space, by 'chromaticities', is another than in "
+                  "frame 2; 'keyline info' tells of both files"));
+}
+
+// More than any disk has.
+TEST_F(CheckCommand, ADiskThatWillNotDoIsTold) {
+    graph(R"("c": { "type": "constant", "size": [300000, 300000] },
+             "out": { "type": "write", "in": "c", "file": "deep/out.####.exr" })");
+    const Outcome run = check({"graph.json", "--frames", "1-1000"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("warning: 1000 outputs take up to "));
+    EXPECT_THAT(run.err, HasSubstr(" free; make room, or write elsewhere"));
+    EXPECT_EQ(check({"graph.json", "--frames", "1", "--set", "c.size=[8,8]"}).err, "");
 }
 
 TEST_F(CheckCommand, AFrameOfTheShotThatIsNotThereIsAnError) {

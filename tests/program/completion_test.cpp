@@ -75,6 +75,8 @@ TEST_F(Completion, OffersCommandsOptionsAndWords) {
     EXPECT_THAT(offered({"new", "--look=o"}), ElementsAre("--look=over"));
     EXPECT_THAT(offered({"nodes", "gau"}), ElementsAre("gaussian"));
     EXPECT_THAT(offered({"submit", "sl"}), ElementsAre("slurm"));
+    EXPECT_THAT(offered({"explain", "unknown-n"}), ElementsAre("unknown-node"));
+    EXPECT_THAT(offered({"render", "graph.json", "--progress", "b"}), ElementsAre("bar"));
     EXPECT_THAT(offered({"render", ""}), ElementsAre(":files"));
     EXPECT_THAT(offered({"render", "graph.json", "--profile", "x"}), ElementsAre(":files"));
     EXPECT_THAT(offered({"render", "graph.json", "--threads", ""}), IsEmpty());

@@ -35,11 +35,12 @@ constexpr const char* kWrong = R"({
 })";
 
 TEST_F(Excerpts, ShowTheLineAndWhatIsWrongInIt) {
-    EXPECT_EQ(told(kWrong),
-              R"(g.json:4:32: error: node 'c' (constant): unknown key 'colour'; did you mean 'color'?
+    EXPECT_EQ(
+        told(kWrong),
+        R"(g.json:4:32: error: node 'c' (constant): unknown key 'colour'; did you mean 'color'? [unknown-key]
  4 |     "c": { "type": "constant", "colour": "#000000", "size": [4, -4] },
    |                                ^~~~~~~~
-g.json:4:65: error: node 'c' (constant): 'size' is -4; it must be from 1 to 1048576 pixels
+g.json:4:65: error: node 'c' (constant): 'size' is -4; it must be from 1 to 1048576 pixels [wrong-value]
  4 |     "c": { "type": "constant", "colour": "#000000", "size": [4, -4] },
    |                                                                 ^~
 )");

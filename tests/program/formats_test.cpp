@@ -176,7 +176,7 @@ TEST_F(Formats, ThatMayNotGrowAreErrorsOfTheOutput) {
     for (const char* extension : {"dpx", "jpg", "png", "rla", "sgi", "tif"}) {
         graph(fmt::format(R"("r":   {{ "type": "read", "file": "{}" }},
                              "out": {{ "type": "write", "in": "r:Combined", "file": "out.{}",
-                                       "channels": ["R", "G", "B"] }})",
+                                       "channels": ["R", "G", "B"], "meant": "linear-in-file" }})",
                           (plates() / "street.0001.exr").string(), extension));
         rlimit before{};
         getrlimit(RLIMIT_FSIZE, &before);

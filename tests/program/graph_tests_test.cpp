@@ -98,6 +98,26 @@ TEST_F(GraphTests, AGraphIsGivenOtherImagesAndValues) {
               "1 test, none failed\nmath: no test gives 'value', 'b', 'mix' and 'mask'\n");
 }
 
+TEST_F(GraphTests, BranchesOfAGraphThatNoTestTakesAreTold) {
+    graph(
+        R"("r": { "type": "read", "file": "plate.exr" },
+             "soft": { "type": "gaussian", "in": "r", "enabled": "= look == 'final'" },
+             "o": { "type": "write", "in": "soft", "file": "o.exr" })",
+        R"("variables": { "look": { "default": "final", "choices": ["final", "rough"] } },)");
+    const auto tested = [&](const std::string& variables) {
+        one(fmt::format(R"("graph": "graph.json", "images": {{ "r": {{ "R": ["1"] }} }}, "output": "soft",
+               "expect": ["1"]{})",
+                        variables));
+        return test({"--untouched"}).out;
+    };
+    const std::string file = (folder() / "graph.json").string();
+    EXPECT_EQ(
+        tested(""),
+        fmt::format("1 test, none failed\n{}: no test has 'soft' not enabled and look = 'rough'\n", file));
+    EXPECT_EQ(tested(R"(, "variables": { "look": "rough" })"),
+              fmt::format("1 test, none failed\n{}: no test has 'soft' enabled and look = 'final'\n", file));
+}
+
 TEST_F(GraphTests, GoldenFilesAreBlessed) {
     one(R"("images": { "a": { "pattern": "noise", "size": [9, 7], "channels": ["R", "G", "B"] } },
            "nodes": { "b": { "type": "gaussian", "in": "a", "sigma": 2 } }, "expect": { "file": "golden/b.exr" })");

@@ -15,6 +15,8 @@ namespace keyline::exr {
 namespace {
 
 [[noreturn]] void fail_to_read(const std::string& name, int error) {
+    if (error == ENOENT)
+        fail(Code::kFileMissing, ErrorKind::kInput, fmt::format("{}: {}", name, system_text(error)));
     fail(ErrorKind::kInput, fmt::format("{}: {}", name, system_text(error)), system_hint(error),
          system_passing(error));
 }
