@@ -63,6 +63,9 @@ done
 garden found-objects 480 400 --set 'sure.in=["objects"]' --set 'lines.in=["objects"]'
 garden found-paints 480 400 --set 'lines.in=["sure"]'
 garden found-all 480 400
+garden thin-outlines 790 436 --set 'lines.in=["sure","folds","creases"]'
+garden thin-middles 790 436
+garden weight-angle 415 425 --set wide.normal=render:Normal --set 'wide.by_angle=[0.4,2]' --set 'wide.by_kind={}'
 garden smooth-none 800 570 --set calm.tolerance=0
 garden smooth-auto 800 570
 garden smooth-abstract 800 570 --set calm.abstract=5

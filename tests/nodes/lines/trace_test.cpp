@@ -136,6 +136,44 @@ TEST(Trace, RidgesAndValleysAreOnTheCrest) {
     }
 }
 
+// What is thinner than a pixel has no outlines, but a middle.
+TEST(Trace, ThinThingsAreRidgesOfTheirCoverage) {
+    const Point from{6.3, 10.1}, to{41.2, 30.4};
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    const Point way{(to.x - from.x) / length, (to.y - from.y) / length};
+    for (const double width : {0.3, 0.6, 0.9}) {
+        const Scene scene{.things = {wire("hair", from, to, width, 5), disc("a", {30, 20}, 15, 9)}};
+        const Json nodes{
+            {"thin",
+             {{"type", "cryptomatte"}, {"in", "in"}, {"layer", "CryptoObject"}, {"objects", {"hair"}}}},
+            {"middle",
+             {{"type", "trace"},
+              {"in", "thin"},
+              {"mode", "ridge"},
+              {"sigma", 0.8},
+              {"low", 0.01},
+              {"high", 0.1}}},
+            {"whole", {{"type", "chain"}, {"in", {"middle"}}, {"gap", 6}, {"min_length", 6}}}};
+        const Strokes strokes = strokes_in(nodes, "whole", {{"in", {passes_of(scene)}}});
+        ASSERT_EQ(strokes.strokes.size(), 1U) << width;
+        const std::vector<StrokeVertex>& vertices = strokes.strokes[0].vertices;
+        double squares = 0, least = length, most = 0;
+        int count = 0;
+        for (const StrokeVertex& v : vertices) {
+            const double x = v.x - from.x, y = v.y - from.y, along = x * way.x + y * way.y,
+                         across = y * way.x - x * way.y;
+            least = std::min(least, along);
+            most = std::max(most, along);
+            if (along < 2 || along > length - 2) continue;
+            squares += across * across;
+            ++count;
+        }
+        EXPECT_LT(std::sqrt(squares / count), 0.05) << width;
+        EXPECT_NEAR(least, 0, 1.5) << width;
+        EXPECT_NEAR(most, length, 1.5) << width;
+    }
+}
+
 // An edge that loses its contrast from left to right.
 Image fading() {
     return sampled([](double x, double y) { return (1 - x / kSize) / (1 + std::exp(-2 * (y - 24.2))); });
