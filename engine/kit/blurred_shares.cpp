@@ -15,7 +15,8 @@ namespace keyline {
 namespace {
 
 uint32_t in_parts(float coverage) {
-    return coverage > 0 ? static_cast<uint32_t>(std::min(coverage, 1.0F) * SharedPixels::kWhole + 0.5F) : 0;
+    return coverage > 0 ? static_cast<uint32_t>(std::lround(std::min(coverage, 1.0F) * SharedPixels::kWhole))
+                        : 0;
 }
 
 // Whether all of n pixels are of one object each, their first.
