@@ -9,7 +9,7 @@ frame=24
 images=docs/images
 
 render() {
-  build/release/bin/keyline render "graphs/$1.json" --frames $frame --progress none \
+  build/release/bin/keyline render "graphs/$1.json" --frames $frame --progress none --no-provenance \
     --var plate="$PWD/graphs/plates/street_passes.####.exr" "${@:2}"
 }
 
