@@ -153,7 +153,7 @@ TEST_F(Documents, AHundredMistakesAreToldAsTheirPageSays) {
         if (m[2].matched) {
             const std::size_t at = text.find(m.str(2));
             ASSERT_NE(at, std::string::npos) << line;
-            text.replace(at, m.length(2), m.str(3));
+            text.replace(at, m.str(2).size(), m.str(3));
         }
         write("toon.json", text);
         const Outcome run = keyline(words_of(m[4].matched ? m.str(4) : "check toon.json"));
