@@ -92,13 +92,14 @@ std::string styled(std::string line, const Error& error, std::string_view label,
 }  // namespace
 
 MessageStyle message_style() {
-    const auto is_set = [](const char* name) {
+    const auto value_of = [](const char* name) {
         const char* value = std::getenv(name);
-        return value && *value != '\0';
+        return std::string_view(value ? value : "");
     };
     const bool is_terminal = isatty(STDERR_FILENO) != 0;
-    const bool has_colours = is_set("TERM") && std::string_view(std::getenv("TERM")) != "dumb";
-    return {is_terminal, is_terminal && has_colours && !is_set("NO_COLOR")};
+    const std::string_view terminal = value_of("TERM");
+    const bool has_colours = !terminal.empty() && terminal != "dumb";
+    return {is_terminal, is_terminal && has_colours && value_of("NO_COLOR").empty()};
 }
 
 std::string styled_error(const Error& error, const MessageStyle& style) {

@@ -31,7 +31,7 @@ public:
 
     void clear() { used_ = 0; }
     std::span<const Share> operator[](std::size_t pixel) const {
-        return {&shares_[lists_[pixel].first], lists_[pixel].count};
+        return {shares_.data() + lists_[pixel].first, lists_[pixel].count};
     }
 
     // A list in the making; one at a time.
