@@ -24,8 +24,8 @@ endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
-# keyline_not_hot(TARGET): in optimised builds it is compiled for a quick build and not for speed; what computes
-# pixels lies in the library.
+# keyline_not_hot(TARGET): it is compiled for a quick build and not for speed, also where the rest of a debug build is
+# optimised; what computes pixels lies in the library.
 function(keyline_not_hot target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O1> $<$<CONFIG:Debug>:-O0>)
 endfunction()

@@ -27,13 +27,13 @@ changed() { git diff --name-only --diff-filter=d "$base" -- '*.cpp' | grep -v '^
 format() { sources | xargs clang-format --dry-run -Werror; }
 
 # One build for three questions: what clang warns of, what the assertions say, and what the address and undefined-behaviour
-# sanitizers find.  Without precompiled headers, so that each source is seen to include what it needs; the benchmarks too,
-# which nothing else compiles.  A little optimised: the contract tests take five minutes of CPU otherwise.  Vector bodies from
-# SSE4 on: instrumented, the portable one takes the compiler a quarter of the whole build; scripts/test.sh runs it.
+# sanitizers find.  The benchmarks too, which nothing else compiles.  The library is a little optimised: the contract tests
+# take five minutes of CPU otherwise.  Vector bodies from SSE4 on: instrumented, the portable one takes the compiler a quarter
+# of the whole build; scripts/test.sh runs it.
 clang_debug() {
   local flags="-O1 -g1"
   [ "$(uname -m)" != x86_64 ] || flags+=" -march=x86-64-v2 -maes -mpclmul"
-  cmake --preset debug -B build/clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS_DEBUG="$flags" -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON \
+  cmake --preset debug -B build/clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS_DEBUG="$flags" \
     -DKEYLINE_SANITIZE="address;undefined" -DKEYLINE_TESTS=ON -DKEYLINE_BENCHMARKS=ON >/dev/null
   cmake --build build/clang
 }
@@ -50,8 +50,10 @@ tidy() {
     return
   fi
   echo "$(changed | wc -l) sources changed since $base; at most $most_tidied are looked at"
+  # Without precompiled headers, so that each is seen to include what it needs.
+  cmake --preset debug -B build/tidy -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
   changed | head -n "$most_tidied" |
-    xargs --no-run-if-empty -P "$(nproc)" -n 4 clang-tidy -p build/clang --quiet 2> >(grep -v 'warnings generated' >&2)
+    xargs --no-run-if-empty -P "$(nproc)" -n 4 clang-tidy -p build/tidy --quiet 2> >(grep -v 'warnings generated' >&2)
 }
 
 step "format" format
