@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Keyline Authors
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/base/channels.h"
+#include "engine/kit/surface_places.h"
 #include "engine/node/node_adaptor.h"
 #include "engine/simd/elementary.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 namespace keyline {
 
@@ -171,35 +170,11 @@ struct Hatch {
         for (const double angle : params.angles) pen.directions.push_back(elementary::sin_cos_degrees(angle));
         const Stream tone = builder.input(params.in);
         if (!params.coords) return add_operation(builder, HatchOnScreen{std::move(pen)}, {tone});
-        return add_operation(builder, HatchOnSurface{std::move(pen)}, {tone, places(builder)});
+        return add_operation(builder, HatchOnSurface{std::move(pen)},
+                             {tone, surface_places(builder, *params.coords, "coords")});
     }
 
     const Params params;
-
-private:
-    // The channels that are coordinates, by name: layers hold others too, and in any order.
-    Stream places(Builder& builder) const {
-        static const std::vector<std::vector<std::string>> kinds{
-            {"U", "V"}, {"S", "T"}, {"X", "Y", "Z"}, {"R", "G", "B"}};
-        const Stream in = builder.input(*params.coords);
-        // R G B are coordinates where the file says so, in a layer P or Position.
-        const auto serves = [&](const std::string& name) {
-            const StreamChannel* c = in.find_spelled(name);
-            return c && (name != "R" || c->holds == Holds::kData);
-        };
-        const auto names =
-            std::ranges::find_if(kinds, [&](const auto& kind) { return std::ranges::all_of(kind, serves); });
-        if (names == kinds.end())
-            builder.bad_parameter(
-                "coords",
-                fmt::format("'coords' needs channels U and V, S and T, or X, Y and Z; its input has {}",
-                            some_of(in.names())),
-                "select the pass, as in \"id:UV\" or \"id:Position\"");
-        Stream out = in;
-        out.channels.clear();
-        for (const std::string& name : *names) out.set(name, *in.find_spelled(name));
-        return out;
-    }
 };
 
 }  // namespace

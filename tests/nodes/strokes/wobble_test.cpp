@@ -63,6 +63,83 @@ TEST(Wobble, StaysWithTheSurface) {
               shifts(wobbled(line(37.5), {{"anchor", "screen"}})));
 }
 
+// A surface that a pixel is `step` of, moved by whole pixels.
+Image surface(double step, int moved = 0) {
+    Image out(kFrame, {"X", "Y", "Z"});
+    for (int y = kFrame.y0; y < kFrame.y1; ++y)
+        for (int x = kFrame.x0; x < kFrame.x1; ++x) {
+            out.at("X", x, y) = static_cast<float>(step * (x - moved));
+            out.at("Y", x, y) = static_cast<float>(step * y);
+            out.at("Z", x, y) = 1;
+        }
+    return out;
+}
+
+Stroke without_anchors(Stroke s) {
+    s.anchor = StrokeAnchor::kNone;
+    for (StrokeVertex& v : s.vertices) v.anchor = {};
+    return s;
+}
+
+Stroke wobbled_on(const Image& places, const Stroke& s, const Json& params) {
+    return run_on_strokes("wobble", params, strokes_in(kFrame, {s}), {}, {{"surface", places}}).strokes.at(0);
+}
+
+TEST(Wobble, StaysWithThePassThatTellsPlaces) {
+    const Stroke here = without_anchors(line()), there = without_anchors(line(37));
+    const Json params{{"amount", 5}};
+    const Stroke moved = wobbled_on(surface(0.25), here, params);
+    EXPECT_GT(most(shifts(moved)), 1);
+    EXPECT_EQ(moved.anchor, StrokeAnchor::kPosition);
+    EXPECT_EQ(moved.vertices[20].anchor, (std::array{7.5, 13.0, 1.0})) << "beside it, on what it belongs to";
+    EXPECT_EQ(shifts(moved), shifts(wobbled_on(surface(0.25, 37), there, params)));
+    EXPECT_NE(shifts(moved), shifts(wobbled_on(surface(0.25), there, params)));
+}
+
+// How often a line goes from one side to the other.
+int crossings(const std::vector<double>& v) {
+    int count = 0;
+    for (std::size_t i = 1; i < v.size(); ++i) count += (v[i - 1] < 0) != (v[i] < 0);
+    return count;
+}
+
+TEST(Wobble, HasWavesOfOneLengthInThePictureHoweverLargeTheSurface) {
+    const Json params{{"amount", 5}, {"octaves", 1}, {"scale", 10}};
+    for (const double step : {0.001, 0.3, 0.4, 0.5, 0.7, 1.0, 90.0}) {
+        const int count = crossings(shifts(wobbled_on(surface(step), without_anchors(line()), params)));
+        EXPECT_GE(count, 10) << step;
+        EXPECT_LE(count, 40) << step;
+    }
+    // As the surface comes nearer, waves change little by little.
+    const auto near = [&](double step) {
+        return shifts(wobbled_on(surface(step), without_anchors(line()), params));
+    };
+    for (const double step : {0.4, 0.799, 1.6}) {
+        const std::vector<double> a = near(step), b = near(1.002 * step);
+        for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 0.5) << step << " at " << i;
+    }
+    const Json fixed{{"amount", 5}, {"surface_scale", 10}, {"octaves", 1}};
+    EXPECT_LE(crossings(shifts(wobbled_on(surface(0.01), without_anchors(line()), fixed))), 2);
+}
+
+TEST(Wobble, DoesNotJumpWhereTheSurfaceDoes) {
+    Image torn = surface(0.25);
+    for (int y = kFrame.y0; y < kFrame.y1; ++y)
+        for (int x = 110; x < kFrame.x1; ++x) torn.at("X", x, y) += 1000;
+    for (int y = kFrame.y0; y < kFrame.y1; ++y) torn.at("Z", 60, y) = std::nanf("");
+    const std::vector<double> v =
+        shifts(wobbled_on(torn, without_anchors(line()), {{"amount", 5}, {"scale", 48}, {"octaves", 1}}));
+    EXPECT_GT(most(v), 1);
+    for (std::size_t i = 1; i < v.size(); ++i) EXPECT_LT(std::fabs(v[i] - v[i - 1]), 1.5) << "at " << i;
+}
+
+TEST(Wobble, RefusesASurfaceThatNothingStaysWith) {
+    EXPECT_THROW(wobbled_on(surface(1), line(), {{"anchor", "screen"}}), Failure);
+    EXPECT_THROW(run_on_strokes("wobble", {{"amount", 1}}, strokes_in(kFrame, {line()}), {},
+                                {{"surface", Image(kFrame, {"depth"})}}),
+                 Failure);
+}
+
 TEST(Wobble, IsSmoothRoundAClosedStroke) {
     Places places;
     for (int i = 0; i < 120; ++i)
@@ -94,11 +171,24 @@ TEST(Wobble, HasOtherHands) {
     EXPECT_NE(shifts(wobbled(line(), {{"seed", 1}})), shifts(wobbled(line(), {{"seed", 2}})));
 }
 
+// The same drawing at half the size has the same waves, half as high.
 TEST(Wobble, ScalesWithTheDisplay) {
-    Strokes small = strokes_in({0, 0, 400, 540}, {line()});
-    const double whole = most(shifts(wobbled(line(), {{"amount", 2}})));
-    const double half = most(shifts(run_on_strokes("wobble", {{"amount", 2}}, small).strokes[0]));
-    EXPECT_NEAR(half, whole / 2, 1e-9) << "the same waves, on the surface";
+    const Stroke whole = line();
+    Stroke half = whole;
+    half.vertices.clear();
+    for (std::size_t i = 0; i < whole.vertices.size(); i += 2) {
+        half.vertices.push_back(whole.vertices[i]);
+        half.vertices.back().x /= 2;
+    }
+    for (const Json& params :
+         {Json{{"amount", 2}, {"octaves", 1}}, Json{{"amount", 2}, {"surface_scale", 0.4}}}) {
+        const std::vector<double> large = shifts(wobbled(whole, params));
+        const std::vector<double> small =
+            shifts(run_on_strokes("wobble", params, strokes_in({0, 0, 400, 540}, {half})).strokes[0]);
+        EXPECT_GT(most(large), 0.4);
+        for (std::size_t i = 5; i + 5 < small.size(); ++i)
+            EXPECT_NEAR(small[i], large[2 * i] / 2, 0.05) << "at " << i;
+    }
 }
 
 }  // namespace
