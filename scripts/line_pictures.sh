@@ -63,7 +63,7 @@ done
 garden found-objects 480 400 --set 'sure.in=["objects"]' --set 'lines.in=["objects"]'
 garden found-paints 480 400 --set 'lines.in=["sure"]'
 garden found-all 480 400
-garden thin-outlines 790 436 --set 'lines.in=["sure","folds","creases"]'
+garden thin-outlines 790 436 --set objects.thin=0 --set paints.thin=0
 garden thin-middles 790 436
 garden weight-angle 415 425 --set wide.normal=render:Normal --set 'wide.by_angle=[0.4,2]' --set 'wide.by_kind={}'
 garden smooth-none 800 570 --set calm.tolerance=0

@@ -44,7 +44,7 @@ constexpr auto words(StrokeKind) {
                       Word<StrokeKind>{"fold", kFold, "an object before itself"},
                       Word<StrokeKind>{"intersection", kIntersection, "where two objects meet"},
                       Word<StrokeKind>{"crease", kCrease, "where a surface bends sharply"},
-                      Word<StrokeKind>{"ridge", kRidge, "the crest of a channel"},
+                      Word<StrokeKind>{"ridge", kRidge, "the middle of a thing, or a channel's crest"},
                       Word<StrokeKind>{"valley", kValley, "the floor of a channel"},
                       Word<StrokeKind>{"border", kBorder, "where a surface ends"},
                       Word<StrokeKind>{"material", kMaterial, "between two materials"},
@@ -95,9 +95,10 @@ struct StrokeVertex {
     double strength = 1;             // how surely there is a line: 0 at the lower threshold, 1 at the upper
     double sharpness = 0;            // the angle between the normals on both sides, in degrees
     double epsilon = 0;              // how far off the place may be, in pixels
+    double thickness = 0;            // of what it is the middle of, in pixels; 0: of nothing
     std::array<double, 3> anchor{};  // a place on the surface, see StrokeAnchor
 
-    static constexpr std::size_t kNumbers = 14;
+    static constexpr std::size_t kNumbers = 15;
     friend bool operator==(const StrokeVertex& a, const StrokeVertex& b) {
         using Bits = std::array<uint64_t, kNumbers>;
         return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);

@@ -29,7 +29,7 @@ struct Line {
     std::optional<Color> color;
     std::vector<std::array<double, 2>> points;
     Column width = 1.0, opacity = 1.0, depth = 0.0, curvature = 0.0, strength = 1.0, sharpness = 0.0,
-           epsilon = 0.0;
+           epsilon = 0.0, thickness = 0.0;
     StrokeAnchor anchor = StrokeAnchor::kNone;
     std::vector<std::array<double, 3>> anchors;
 
@@ -49,6 +49,8 @@ struct Line {
         field(&Line::sharpness, "sharpness", "The angle between the normals on both sides, in degrees.",
               between(0, 180)),
         field(&Line::epsilon, "epsilon", "How far off the points may be, in pixels.", at_least(0)),
+        field(&Line::thickness, "thickness", "Of what it is the middle of, in pixels; 0: of nothing.",
+              at_least(0)),
         field(&Line::anchor, "anchor", "What the anchors are."),
         field(&Line::anchors, "anchors", "A place on the surface for each point."));
 };
@@ -82,7 +84,8 @@ constexpr std::array kColumns{ColumnField{"width", &Line::width, &StrokeVertex::
                               ColumnField{"curvature", &Line::curvature, &StrokeVertex::curvature},
                               ColumnField{"strength", &Line::strength, &StrokeVertex::strength},
                               ColumnField{"sharpness", &Line::sharpness, &StrokeVertex::sharpness},
-                              ColumnField{"epsilon", &Line::epsilon, &StrokeVertex::epsilon}};
+                              ColumnField{"epsilon", &Line::epsilon, &StrokeVertex::epsilon},
+                              ColumnField{"thickness", &Line::thickness, &StrokeVertex::thickness}};
 
 std::string hexadecimal(uint32_t id) { return fmt::format("{:08x}", id); }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/contours.h"
 
+#include "engine/kit/middles.h"
 #include "engine/kit/object_ids.h"
 #include "engine/node/node_adaptor.h"
 
@@ -15,28 +16,39 @@ namespace {
 
 using Names = std::map<uint32_t, std::string>;
 
-// All crossings of the frame, linked.
+// All crossings and thin parts of the frame, linked.
 struct LinkCrossings {
     struct Params {
-        Input crossings;
-        static constexpr auto fields = declare(input(&Params::crossings, "crossings", "", any_channels()));
+        Input crossings, thin;
+        static constexpr auto fields = declare(input(&Params::crossings, "crossings", "", any_channels()),
+                                               input(&Params::thin, "thin", "", any_channels()));
+    };
+    struct Found {
+        std::vector<Crossing> crossings;
+        std::vector<ThinPoint> thin;
     };
     struct State {
         Rect extent;
-        std::vector<Crossing> crossings;
+        Found found;
     };
-    using Partial = std::vector<Crossing>;
+    using Partial = Found;
 
     static State start(const Rect& window) { return {window, {}}; }
     static Partial map(const State&, const Inputs& in, const Rect& block, Scratch&) {
-        return crossings_in(in.slot(0), block);
+        return {crossings_in(in.slot(0), block), thin_points_in(in.slot(1), block)};
     }
     static void fold(State& state, Partial&& found) {
-        state.crossings.insert(state.crossings.end(), found.begin(), found.end());
+        Found& all = state.found;
+        all.crossings.insert(all.crossings.end(), found.crossings.begin(), found.crossings.end());
+        all.thin.insert(all.thin.end(), found.thin.begin(), found.thin.end());
     }
     Strokes finish(State state) const {
         Strokes out{display, window, names, {}};
-        out.strokes = strokes_of(link_borders(std::move(state.crossings), state.extent), options);
+        out.strokes = strokes_of(link_borders(std::move(state.found.crossings), state.extent), options);
+        Middles middles = middles_of(std::move(state.found.thin), {thin, options.min_length, state.extent});
+        out.strokes = outlines_beside(std::move(out.strokes), middles, options.min_length);
+        for (const auto& list : {middles.things, middles.gaps})
+            out.strokes.insert(out.strokes.end(), list.begin(), list.end());
         if (kind)
             for (Stroke& s : out.strokes) s.kind = *kind;
         arrange(out);
@@ -47,16 +59,17 @@ struct LinkCrossings {
     static constexpr std::size_t kBusy = 100;
     static std::size_t state_bytes(const Rect& window) {
         return static_cast<std::size_t>(window.area()) / kBusy *
-               (3 * sizeof(Crossing) + sizeof(StrokeVertex));
+               (3 * sizeof(Crossing) + 3 * sizeof(ThinPoint) + sizeof(StrokeVertex));
     }
     static std::size_t partial_bytes(const Rect& block) {
-        return static_cast<std::size_t>(2 * block.area()) * sizeof(Crossing);
+        return static_cast<std::size_t>(block.area()) * (2 * sizeof(Crossing) + sizeof(ThinPoint));
     }
     static std::size_t datum_bytes(const Rect& window) {
         return static_cast<std::size_t>(window.area()) / kBusy * sizeof(StrokeVertex);
     }
 
     const ContourOptions options;
+    const double thin;
     const std::optional<StrokeKind> kind;  // of all; else each has its own
     const Rect display, window;
     const Names names;
@@ -72,6 +85,7 @@ struct Contours {
         std::optional<Input> depth;
         double sigma = 0.7;
         std::array<double, 2> step{1, 3};
+        double thin = 1.5;
         double min_length = 4;
         std::optional<StrokeKind> kind;
 
@@ -93,8 +107,13 @@ struct Contours {
                 "How far objects are from each other, in pixels of the nearer, where they meet and where one "
                 "is before the other; between both a line is what it hangs on.",
                 at_least(0, "pixels")),
-            field(&Params::min_length, "min_length", "Closed lines that are shorter are left out.",
-                  at_least(0, "pixels")),
+            field(&Params::thin, "thin",
+                  "What is thinner, as whiskers and wires, is one stroke along its middle, called \"ridge\", "
+                  "that "
+                  "knows how thick it is; so is a gap between nearer things. 0: all have outlines.",
+                  px(0, 4)),
+            field(&Params::min_length, "min_length",
+                  "Closed lines and middles that are shorter are left out.", at_least(0, "pixels")),
             field(&Params::kind, "kind",
                   "What the strokes are called, as \"material\" for a CryptoMaterial; when absent each is "
                   "called after the depth on both sides."));
@@ -115,20 +134,15 @@ struct Contours {
         std::vector<Link> links{{in, ids.values}, {}};
         if (params.depth) links[1] = link_depth(builder, *params.depth);
         const double pixel_angle = 1.0 / std::max(in.display.width(), 1);
-        const auto find = std::make_shared<const FindCrossings>(
-            FindCrossings::Options{params.sigma, ids.integers, pixel_angle});
-        Stream crossings = in;
-        crossings.channels.clear();
-        crossings.window = result_window(*find, links, FindCrossings::kOutputs);
-        for (const ValueRef v :
-             builder.add(find, std::move(links), crossings.window, FindCrossings::kOutputs))
-            crossings.channels.push_back({fmt::format("{}", v.output), v, Holds::kData});
+        const Stream crossings =
+            found(builder, FindCrossings({params.sigma, ids.integers, pixel_angle}), in, links);
+        const Stream thin = found(builder, FindThinParts({kWider * params.thin, ids.integers}), in, links);
         const ContourOptions options{params.sigma, pixel_angle, params.step, params.min_length,
                                      ids.crypto ? kOfCoverage : kOfIds};
         return add_operation(builder,
-                             LinkCrossings{options, params.kind, in.display, in.window,
+                             LinkCrossings{options, params.thin, params.kind, in.display, in.window,
                                            ids.crypto ? names_of(builder, *ids.crypto->info) : Names{}},
-                             {crossings});
+                             {crossings, thin});
     }
 
     const Params params;
@@ -136,6 +150,18 @@ struct Contours {
 private:
     // How exact lines are, measured on edges at random and coverage of 64 samples, and on ids at centres.
     static constexpr double kOfCoverage = 0.05, kOfIds = 0.25;
+    static constexpr double kWider =
+        1.3;  // points are found up to more than what is thin, so that noise does not cut
+
+    template <class Find>
+    static Stream found(Builder& builder, const Find& find, Stream in, std::vector<Link> links) {
+        const auto node = std::make_shared<const Find>(find);
+        in.channels.clear();
+        in.window = result_window(*node, links, Find::kOutputs);
+        for (const ValueRef v : builder.add(node, std::move(links), in.window, Find::kOutputs))
+            in.channels.push_back({fmt::format("{}", v.output), v, Holds::kData});
+        return in;
+    }
 
     static Names names_of(Builder& builder, const CryptomatteInfo& of) {
         Names out;

@@ -69,6 +69,7 @@ struct WeightParams {
     std::array<double, 2> by_map{0, 1};
     double min = 0.3;
     double smooth = 8;
+    double as_thick = 0;
     std::optional<double> apart;
 
     static constexpr auto fields = declare(
@@ -108,6 +109,11 @@ struct WeightParams {
               "No factors make a stroke narrower than this share, unless one is 0.", between(0, 1)),
         field(&WeightParams::smooth, "smooth", "The length along a stroke over which changes are evened out.",
               between(0, 200)),
+        field(
+            &WeightParams::as_thick, "as_thick",
+            "How far the middle of something thin is drawn as thick as that is, whatever else: 0 not at all, "
+            "1 wholly.",
+            between(0, 1)),
         field(&WeightParams::apart, "apart",
               "Where less would be left between two strokes, the later grows thin and gives way: outlines "
               "stay, "
@@ -141,7 +147,10 @@ struct Weigh {
                 v.width *= factor > 0 ? std::max(factor, params.min) : 0;
             }
             even_out(stroke, params.smooth * unit);
-            for (StrokeVertex& v : stroke.vertices) v.width *= params.width * unit;
+            for (StrokeVertex& v : stroke.vertices) {
+                v.width *= params.width * unit;
+                if (v.thickness > 0) v.width += params.as_thick * (v.thickness - v.width);
+            }
         }
         if (params.apart) give_way(out, *params.apart * unit);
         return out;

@@ -116,6 +116,7 @@ Stroke random_stroke(Dice& dice, const Rect& window) {
         v.strength = dice.number(0, 1);
         v.sharpness = dice.number(0, 180);
         v.epsilon = dice.number(0, 0.3);
+        v.thickness = even ? 0 : 10 * v.epsilon;
         if (s.anchor != StrokeAnchor::kNone)
             for (double& a : v.anchor) a = dice.number(-2, 2);
     }

@@ -282,6 +282,157 @@ TEST(Contours, AreTheSameForEverySchedule) {
         for (const int threads : {1, 4}) EXPECT_EQ(strokes_in(passes, {threads, tile}), whole) << tile;
 }
 
+// Through a place off the middle of the picture.
+const Point kOnWire{24.3, 23.6};
+
+Scene wire_at(double degrees, double width) {
+    const double angle = degrees * std::numbers::pi / 180, x = std::cos(angle), y = std::sin(angle);
+    const auto on_wire = [&](double along) { return Point{kOnWire.x + along * x, kOnWire.y + along * y}; };
+    return {.things = {wire("w", on_wire(-90), on_wire(90), width, 5)}};
+}
+
+double off_wire(const StrokeVertex& v, double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return (v.y - kOnWire.y) * std::cos(angle) - (v.x - kOnWire.x) * std::sin(angle);
+}
+
+struct WireOffsets {
+    double rms = 0, thickness = 0;
+};
+WireOffsets wire_offsets(double degrees, double width, int samples) {
+    const Strokes strokes = strokes_of(wire_at(degrees, width), samples);
+    EXPECT_EQ(strokes.strokes.size(), 1U) << degrees << " degrees, " << width;
+    WireOffsets out;
+    int n = 0;
+    for (const Stroke& s : strokes.strokes) {
+        EXPECT_EQ(s.kind, StrokeKind::kRidge);
+        EXPECT_EQ(s.near, id("w"));
+        EXPECT_EQ(s.ends, (std::array{StrokeEnd::kRim, StrokeEnd::kRim}));
+        EXPECT_GT(keyline::length_of(s), 47) << degrees << " degrees, " << width;
+        for (const StrokeVertex& v : s.vertices) {
+            if (std::min({v.x, v.y, 48 - v.x, 48 - v.y}) < 3) continue;
+            out.rms += std::pow(off_wire(v, degrees), 2);
+            out.thickness += v.thickness;
+            ++n;
+        }
+    }
+    return {std::sqrt(out.rms / n), out.thickness / n};
+}
+
+TEST(Contours, AWireIsOneStrokeAlongItsMiddle) {
+    for (const double width : {0.3, 0.6, 0.9, 1.4})
+        for (const double degrees : {12.0, 27.0, 45.0, 63.0, 80.0, 118.0}) {
+            const WireOffsets exact = wire_offsets(degrees, width, 0),
+                              sampled = wire_offsets(degrees, width, 64);
+            EXPECT_LT(exact.rms, 0.05) << degrees << " degrees, " << width;
+            EXPECT_NEAR(exact.thickness, width, 0.04 * width) << degrees << " degrees, " << width;
+            EXPECT_LT(sampled.rms, 0.07) << degrees << " degrees, " << width;
+            EXPECT_NEAR(sampled.thickness, width, 0.1 * width) << degrees << " degrees, " << width;
+        }
+}
+
+TEST(Contours, WhatIsNotThinHasOutlines) {
+    for (const double degrees : {0.0, 27.0, 45.0}) {
+        const Strokes thick = strokes_of(wire_at(degrees, 3));
+        EXPECT_EQ(thick.strokes.size(), 2U) << degrees;
+        for (const Stroke& s : thick.strokes) EXPECT_EQ(s.kind, StrokeKind::kOutline);
+        EXPECT_LT(offsets(thick, lines_of(wire_at(degrees, 3)), 3).rms, 0.05) << degrees;
+    }
+    const Images thin{{"in", passes_of(wire_at(27, 1.3))}};
+    for (const Stroke& s : strokes_in(thin, {{"layer", "CryptoObject"}, {"thin", 0}}).strokes)
+        EXPECT_EQ(s.kind, StrokeKind::kOutline);
+    EXPECT_EQ(strokes_in(thin, {{"layer", "CryptoObject"}, {"thin", 1}}).strokes.size(), 2U);
+}
+
+// From a point to 5 pixels.
+Scene spike() { return {.things = {polygon("spike", {{3.3, 20.2}, {44.7, 24.1}, {44.2, 29.1}}, 5)}}; }
+
+TEST(Contours, AMiddleGoesOverIntoTwoOutlinesOnce) {
+    const Strokes strokes = strokes_of(spike());
+    ASSERT_EQ(strokes.strokes.size(), 2U);
+    const Stroke &outline = strokes.strokes[0], &middle = strokes.strokes[1];
+    EXPECT_EQ(outline.kind, StrokeKind::kOutline);
+    EXPECT_EQ(middle.kind, StrokeKind::kRidge);
+    EXPECT_LT(std::min(middle.vertices.front().x, middle.vertices.back().x), 6) << "to the tip";
+    const StrokeVertex& fork = std::ranges::max(middle.vertices, {}, &StrokeVertex::x);
+    EXPECT_GT(fork.thickness, 1.5);
+    EXPECT_LT(fork.thickness, 2.2);
+    EXPECT_FALSE(outline.closed);
+    for (const StrokeVertex& end : {outline.vertices.front(), outline.vertices.back()}) {
+        EXPECT_EQ(end.x, fork.x);
+        EXPECT_EQ(end.y, fork.y);
+    }
+    for (const StrokeVertex& v : outline.vertices) EXPECT_GE(v.x, fork.x);
+    EXPECT_NEAR(keyline::length_of(outline) + keyline::length_of(middle),
+                2 * (44.5 - fork.x) + 5 + fork.thickness + (fork.x - 3.3), 3)
+        << "nothing comes twice";
+}
+
+// What is seen through it lies behind both.
+TEST(Contours, AGapIsOneStrokeOfWhatIsBesideIt) {
+    const Scene scene{.things = {polygon("wall", {{-9, -9}, {60, -9}, {60, 60}, {-9, 60}}, 9),
+                                 polygon("left", {{-9, -9}, {22, -9}, {26, 60}, {-9, 60}}, 5),
+                                 polygon("right", {{23.1, -9}, {60, -9}, {60, 60}, {27.1, 60}}, 5)}};
+    const Strokes strokes = strokes_of(scene);
+    ASSERT_EQ(strokes.strokes.size(), 1U);
+    const Stroke& gap = strokes.strokes[0];
+    EXPECT_EQ(gap.kind, StrokeKind::kOutline);
+    EXPECT_EQ(gap.far, id("wall"));
+    EXPECT_NE(gap.near, id("wall"));
+    for (const StrokeVertex& v : gap.vertices) EXPECT_NEAR(v.x, 22.55 + (v.y + 9) * 4 / 69, 0.1);
+}
+
+// The disc is cut by the wire before it, and its outline ends on the wire.
+Scene wire_before_disc() {
+    return {.things = {disc("behind", {23.2, 23.7}, 10, 5), wire("w", {2.3, 30.1}, {45.8, 17.9}, 1.3, 4)}};
+}
+
+TEST(Contours, WhatEndsBehindAWireTouchesIt) {
+    const Strokes strokes = strokes_of(wire_before_disc());
+    const auto wire = std::ranges::find(strokes.strokes, StrokeKind::kRidge, &Stroke::kind);
+    ASSERT_NE(wire, strokes.strokes.end());
+    EXPECT_GT(keyline::length_of(*wire), 43);
+    int ends = 0;
+    for (const Stroke& s : strokes.strokes) {
+        if (s.near != id("behind")) continue;
+        for (const StrokeVertex& v : {s.vertices.front(), s.vertices.back()}) {
+            const double x = 45.8 - 2.3, y = 17.9 - 30.1;
+            EXPECT_NEAR(((v.y - 30.1) * x - (v.x - 2.3) * y) / std::hypot(x, y), 0, 0.15);
+            ++ends;
+        }
+    }
+    EXPECT_EQ(ends, 4);
+}
+
+TEST(Contours, MiddlesMoveAndTurnWithThePicture) {
+    const Image passes = passes_of(wire_before_disc(), 16);
+    Strokes moved = strokes_in(keyline::testing::moved(passes, -301, 77));
+    for (Stroke& s : moved.strokes)
+        for (StrokeVertex& v : s.vertices) v.x += 301, v.y -= 77;
+    expect_same_places(moved, strokes_in(passes), 1e-9);
+
+    Image mirrored = passes;
+    for (Image::Channel& c : mirrored.channels)
+        mirrored.fill(c.name, [&](int x, int y) { return passes.at(c.name, 47 - x, y); });
+    Strokes back = strokes_in(mirrored);
+    for (Stroke& s : back.strokes) {
+        if (s.kind != StrokeKind::kRidge) {
+            std::ranges::reverse(s.vertices);
+            std::swap(s.ends[0], s.ends[1]);
+        }
+        for (StrokeVertex& v : s.vertices) v.x = 48 - v.x;
+    }
+    arrange(back);
+    expect_same_places(back, strokes_in(passes), 1e-4);
+}
+
+TEST(Contours, MiddlesAreTheSameForEverySchedule) {
+    const Image passes = passes_of(wire_before_disc(), 16);
+    const Strokes whole = strokes_in(passes, {1, 4096});
+    for (const int tile : {1, 7, 16})
+        for (const int threads : {1, 4}) EXPECT_EQ(strokes_in(passes, {threads, tile}), whole) << tile;
+}
+
 TEST(Contours, AStepThatRunsBackwardsIsRefused) {
     EXPECT_NE(error_of("contours", {{"step", {3, 1}}}, ascii({"1"})).find("must not be below"),
               std::string::npos);

@@ -112,6 +112,20 @@ TEST(Weight, SeesTheAngleInNormalsOnBothSides) {
     EXPECT_EQ(vertex(known, nan).sharpness, 40);
 }
 
+TEST(Weight, ThinThingsMayBeDrawnAsThickAsTheyAre) {
+    Stroke s = line();
+    for (StrokeVertex& v : s.vertices) v.thickness = 1.2;
+    const auto at = [&](double share) {
+        return width_of(strokes_in(kHalf, {s}), {{"width", 4}, {"units", "px"}, {"as_thick", share}});
+    };
+    EXPECT_DOUBLE_EQ(at(0), 4);
+    EXPECT_DOUBLE_EQ(at(1), 1.2);
+    EXPECT_DOUBLE_EQ(at(0.5), 2.6);
+    EXPECT_DOUBLE_EQ(width_of(strokes_in(kHalf, {line()}), {{"width", 4}, {"units", "px"}, {"as_thick", 1}}),
+                     4)
+        << "the middle of nothing";
+}
+
 TEST(Weight, TakesKindsAndObjectsByName) {
     std::vector<Stroke> strokes{line(), line(), line(), line()};
     strokes[1].kind = strokes[2].kind = strokes[3].kind = StrokeKind::kCrease;
