@@ -16,6 +16,7 @@ namespace {
 using Way = StrokeWays::Way;
 
 constexpr std::array kInside{1.5, 2.5};  // pixels from a line, where samples are not mixed
+constexpr std::array kMiddle{0.0, 2.5};  // of something thin: on it, and beside it
 
 std::size_t vertices_of(const Strokes& strokes) {
     std::size_t sum = 0;
@@ -54,6 +55,35 @@ Direction inwards(const Stroke& s, std::size_t i) {
     return way.length > 0 ? Direction{-way.y / way.length, way.x / way.length} : Direction{};
 }
 
+// Of something thin, as it is a renderer's accident whether a pixel shows it.
+bool is_middle(const Stroke& s, const StrokeVertex& v) {
+    return s.kind == StrokeKind::kRidge && v.thickness > 0;
+}
+
+// What is found at a vertex: near the line and farther from it.
+struct Seen {
+    uint32_t stroke = 0;
+    bool is_middle = false;
+    std::array<Way, 2> ways;
+
+    double apart() const {
+        const double x = ways[0].x - ways[1].x, y = ways[0].y - ways[1].y;
+        return ways[0].is_known && ways[1].is_known ? std::sqrt(x * x + y * y) : 0;
+    }
+};
+
+// Along its middle a thin thing moves as where it is seen best: where motion differs most from that beside
+// it.
+Way of_middle(const std::vector<Seen>& seen, std::size_t vertex) {
+    constexpr std::size_t kAlong = 4;  // vertices
+    const Seen* best = &seen[vertex];
+    for (std::size_t k = 1; k <= kAlong; ++k)
+        for (const std::size_t i : {vertex - std::min(vertex, k), std::min(vertex + k, seen.size() - 1)})
+            if (seen[i].is_middle && seen[i].stroke == best->stroke && seen[i].apart() > best->apart())
+                best = &seen[i];
+    return best->ways[0];
+}
+
 // Motion changes along a surface, so it is carried on to the line where the surface goes on that far.
 Way at_line(const Way& near, const Way& farther) {
     if (!near.is_known || !farther.is_known) return near;
@@ -74,41 +104,44 @@ CarriedStrokes BeginCarrying::derive(const Inputs& in) {
 FindWays::Partial FindWays::map(const State&, const Inputs& in, const Rect& block, Scratch&) const {
     const std::span<const View> image = in.slot(0);
     Partial out;
-    uint32_t first = 0;
+    uint32_t first = 0, stroke = 0;
     for (const Stroke& s : in.datum<CarriedStrokes>(1).strokes.strokes) {
         const auto n = static_cast<uint32_t>(s.vertices.size());
         if (!intersect(bounds_of(s), block).empty())
             for (uint32_t i = 0; i < n; ++i) {
                 const Direction inside = inwards(s, i);
-                for (uint32_t k = 0; k < kInside.size(); ++k) {
-                    const double x = std::floor(s.vertices[i].x + kInside[k] * inside.x),
-                                 y = std::floor(s.vertices[i].y + kInside[k] * inside.y);
+                const bool middle = is_middle(s, s.vertices[i]);
+                const std::array<double, 2>& far = middle ? kMiddle : kInside;
+                for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+                    const double x = std::floor(s.vertices[i].x + far[k] * inside.x),
+                                 y = std::floor(s.vertices[i].y + far[k] * inside.y);
                     if (!(x >= block.x0 && x < block.x1 && y >= block.y0 && y < block.y1)) continue;
                     const auto channel = [&](std::size_t c) {
                         return *image[c].at(static_cast<int>(x), static_cast<int>(y));
                     };
-                    out.push_back({first + i, k, to_next ? -channel(2) : channel(0),
+                    out.push_back({first + i, stroke, middle, k == 1, to_next ? -channel(2) : channel(0),
                                    to_next ? channel(3) : -channel(1)});
                 }
             }
         first += n;
+        ++stroke;
     }
     return out;
 }
 
 StrokeWays FindWays::finish(State state) {
-    std::ranges::sort(state, {}, [](const Sample& s) { return std::tuple(s.vertex, s.farther); });
-    StrokeWays out;
-    const auto way = [](const Sample& s) {
-        return Way{double{s.x}, double{s.y}, std::isfinite(s.x) && std::isfinite(s.y)};
-    };
-    for (std::size_t i = 0; i < state.size();) {
-        std::array<Way, kInside.size()> of;
-        const uint32_t vertex = state[i].vertex;
-        for (; i < state.size() && state[i].vertex == vertex; ++i) of[state[i].farther] = way(state[i]);
-        out.ways.resize(vertex);
-        out.ways.push_back(at_line(of[0], of[1]));
+    std::ranges::sort(state, {}, [](const Sample& s) { return std::tuple(s.vertex, s.is_farther); });
+    std::vector<Seen> seen(state.empty() ? 0 : state.back().vertex + 1);
+    for (const Sample& s : state) {
+        Seen& of = seen[s.vertex];
+        of.stroke = s.stroke;
+        of.is_middle = s.is_middle;
+        of.ways[s.is_farther ? 1 : 0] = {double{s.x}, double{s.y}, std::isfinite(s.x) && std::isfinite(s.y)};
     }
+    StrokeWays out;
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        out.ways.push_back(seen[i].is_middle ? of_middle(seen, i)
+                                             : at_line(seen[i].ways[0], seen[i].ways[1]));
     return out;
 }
 

@@ -52,7 +52,8 @@ struct BeginCarrying {
 };
 
 // Motion is looked up on the right of strokes, on what they belong to: on the line itself samples are mixed
-// of both sides.  The image has it as Cycles writes it, in X Y Z W.
+// of both sides.  What is thin is under its middle, in some pixels: there motion is other than beside it. The
+// image has it as Cycles writes it, in X Y Z W.
 struct FindWays {
     struct Params {
         Input vector, strokes;
@@ -61,7 +62,9 @@ struct FindWays {
                     input(&Params::strokes, "strokes", "", data<CarriedStrokes>()));
     };
     struct Sample {
-        uint32_t vertex = 0, farther = 0;  // farther: from the line
+        uint32_t vertex = 0, stroke = 0;
+        bool is_middle = false;   // of something thin
+        bool is_farther = false;  // from the line
         float x = 0, y = 0;
     };
     using State = std::vector<Sample>;

@@ -66,8 +66,20 @@ Carried carried(const Spot& s, const Field& field) {
     return other ? Carried{s, -x, -y} : Carried{s, x, y};
 }
 
+// What is thin is under its middle in some pixels, and beside it in others: where it is, it is nearest.
+std::optional<Way> way_of_middle(const Spot& spot, const Field& field) {
+    constexpr int kAlong = 4;  // pixels
+    const auto at = [&](int far) { return std::pair(spot.x + far * spot.tx, spot.y + far * spot.ty); };
+    std::pair<double, double> nearest = at(0);
+    for (int i = 1; i <= kAlong; ++i)
+        for (const auto& [x, y] : {at(-i), at(i)})
+            if (field.depth_at(x, y) < field.depth_at(nearest.first, nearest.second)) nearest = {x, y};
+    return field.at(nearest.first, nearest.second);
+}
+
 // Motion changes along a surface, so it is carried on to the line where the surface goes on that far.
 std::optional<Way> way_of(const Carried& c, const Field& field) {
+    if (c.spot.is_middle) return way_of_middle(c.spot, field);
     const auto at = [&](double far) {
         return field.at(c.spot.x + far * c.inside_x, c.spot.y + far * c.inside_y);
     };

@@ -25,7 +25,7 @@ struct Part {
 };
 
 void add_piece(std::vector<Spot>& out, const StrokeVertex& a, const StrokeVertex& b, std::size_t stroke,
-               const Rect& window, double& arc) {
+               const Rect& window, bool is_middle, double& arc) {
     const double dx = b.x - a.x, dy = b.y - a.y, length = std::sqrt(dx * dx + dy * dy);
     if (!(length > 0)) return;
     Part part;
@@ -36,7 +36,7 @@ void add_piece(std::vector<Spot>& out, const StrokeVertex& a, const StrokeVertex
     for (int i = 0; i < count; ++i) {
         const double t = part.first + share * (i + 0.5) / count;
         out.push_back({a.x + t * dx, a.y + t * dy, dx / length, dy / length, share * length / count,
-                       arc + t * length, a.width + t * (b.width - a.width), stroke});
+                       arc + t * length, a.width + t * (b.width - a.width), stroke, is_middle});
     }
     arc += length;
 }
@@ -48,9 +48,14 @@ std::vector<Spot> spots_of(const Strokes& drawing) {
     for (std::size_t s = 0; s < drawing.strokes.size(); ++s) {
         const Stroke& stroke = drawing.strokes[s];
         const std::vector<StrokeVertex>& v = stroke.vertices;
+        const auto is_middle = [&](const StrokeVertex& a) {
+            return stroke.kind == StrokeKind::kRidge && a.thickness > 0;
+        };
         double arc = 0;
-        for (std::size_t i = 1; i < v.size(); ++i) add_piece(out, v[i - 1], v[i], s, drawing.window, arc);
-        if (stroke.closed && v.size() > 1) add_piece(out, v.back(), v.front(), s, drawing.window, arc);
+        for (std::size_t i = 1; i < v.size(); ++i)
+            add_piece(out, v[i - 1], v[i], s, drawing.window, is_middle(v[i]), arc);
+        if (stroke.closed && v.size() > 1)
+            add_piece(out, v.back(), v.front(), s, drawing.window, is_middle(v.back()), arc);
     }
     return out;
 }

@@ -21,6 +21,7 @@ struct Spot {
     double arc = 0;         // from the stroke's first vertex
     double width = 0;
     std::size_t stroke = 0;  // which of the drawing's
+    bool is_middle = false;  // of something thin: what it is drawn on lies under it, not beside it
 };
 
 inline constexpr double kSpotLength = 0.5;

@@ -257,5 +257,30 @@ TEST(Motion, IsThatOfTheNearerSide) {
     EXPECT_EQ(steadiness(frames).swim.rms, 0);
 }
 
+TEST(Motion, OfSomethingThinIsThatUnderItsMiddle) {
+    // A wire that comes down by 3 pixels a frame and shows in each fourth pixel, before what stands still.
+    std::vector<MovingFrame> frames;
+    for (const int y : {40, 43, 46}) {
+        MotionPass motion = moving(0, 0);
+        motion.depth.assign(motion.vector[0].size(), 9);
+        for (std::size_t x = 0; x < 100; x += 4) {
+            const std::size_t i = static_cast<std::size_t>(y) * 100 + x;
+            motion.depth[i] = 2;
+            motion.vector[1][i] = motion.vector[3][i] = 3;
+        }
+        Stroke wire = line(10, y + 0.5, 90, y + 0.5);
+        wire.kind = StrokeKind::kRidge;
+        for (StrokeVertex& v : wire.vertices) v.thickness = 0.3;
+        frames.push_back({drawing({wire}), motion});
+    }
+    const Steadiness s = steadiness(frames);
+    EXPECT_NEAR(s.length, 4 * 80, 1);
+    EXPECT_EQ(s.pops, 0);
+    EXPECT_EQ(s.swim.rms, 0);
+    EXPECT_NEAR(s.drifted, 80, 1);
+    for (MovingFrame& f : frames) f.drawing.strokes[0].vertices = line(10, 40.5, 90, 40.5).vertices;
+    EXPECT_EQ(steadiness(frames).pops, 0) << "a crest goes with what is beside it";
+}
+
 }  // namespace
 }  // namespace keyline::testing

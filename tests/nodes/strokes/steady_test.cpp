@@ -148,5 +148,23 @@ TEST(Steady, IsNearerToTheTruthThanOneFrame) {
 
 TEST(Steady, AtTheEndOfAShotItDoesWithFewer) { EXPECT_LT(rms_off(kLast, 2), 0.95 * rms_off(kLast, 0)); }
 
+// One pixel in three shows it.
+TEST(Steady, WhatIsThinGoesAsWhereItIsSeen) {
+    const auto ways = [](bool is_middle) {
+        FindWays::State state;
+        for (uint32_t i = 0; i < 20; ++i) {
+            state.push_back({i, 0, is_middle, true, 1, 2});
+            state.push_back({i, 0, is_middle, false, i % 3 == 0 ? 6.0F : 1.0F, 2});
+        }
+        state.push_back({20, 1, is_middle, false, 30, 2});
+        state.push_back({20, 1, is_middle, true, 1, 2});
+        return FindWays::finish(state).ways;
+    };
+    const std::vector<StrokeWays::Way> middle = ways(true), edge = ways(false);
+    for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(middle[i], (StrokeWays::Way{6, 2, true})) << i;
+    EXPECT_EQ(middle[20], (StrokeWays::Way{30, 2, true})) << "another stroke's";
+    EXPECT_EQ(edge[1], (StrokeWays::Way{1, 2, true}));
+}
+
 }  // namespace
 }  // namespace keyline::testing
