@@ -6,6 +6,7 @@
 #include "engine/expr/functions.h"
 #include "engine/graph/group_search.h"
 #include "engine/json/json_reader.h"
+#include "engine/node/parts.h"
 #include "engine/node/reference.h"
 #include "engine/node/registry.h"
 
@@ -118,7 +119,17 @@ bool fits(const Takes& takes, const std::vector<std::string>& channels) {
     return false;
 }
 
+// What a port that takes data may pick of them.
+std::vector<Offer> parts(const std::string& id, const Takes& takes) {
+    std::vector<Offer> out;
+    if (const DataParts* of = takes.data ? parts_of_kind(takes.data) : nullptr)
+        for (const std::string& name : of->names)
+            out.push_back({id + ":" + name, OfferKind::kReference, takes.data, ""});
+    return out;
+}
+
 std::vector<Offer> layers(const Known& known, const std::string& id, const Takes& takes) {
+    if (takes.kind == Takes::Kind::kData) return parts(id, takes);
     std::vector<Offer> out;
     std::map<std::string, std::vector<std::string>> channels;  // of each layer
     for (const std::string& name : channels_of(known.analysis, id)) {

@@ -73,7 +73,7 @@ private:
         } else {
             links_.of[i].push_back(static_cast<int>(to - nodes_.begin()));
             auto fault = kind_fault(port, takes, in.node, *to->type);
-            if (!fault && !in.selector.empty()) fault = selector_fault(in.node, *to->type);
+            if (!fault && !in.selector.empty()) fault = selector_fault(in.node, *to->type, in.selector);
             if (!fault) return;
             links_.misfits.insert(static_cast<int>(i));
             error(i, in, Code::kLinkKind, std::move(fault->what), std::move(fault->hint));

@@ -61,6 +61,22 @@ std::size_t Strokes::bytes() const {
     return sum;
 }
 
+std::vector<std::string> Strokes::part_names() {
+    std::vector<std::string> names;
+    for (const auto& word : words(StrokeKind{})) names.emplace_back(word.word);
+    return names;
+}
+
+std::size_t Strokes::usual_bytes() { return kUsualStrokes; }
+
+Strokes Strokes::part(std::size_t which) const {
+    Strokes out{display, window, names, {}};
+    std::ranges::copy_if(strokes, std::back_inserter(out.strokes),
+                         [&](const Stroke& s) { return s.kind == words(StrokeKind{})[which].value; });
+    arrange(out);
+    return out;
+}
+
 double length_of(const Stroke& stroke) {
     const std::vector<StrokeVertex>& v = stroke.vertices;
     double sum = 0;

@@ -127,6 +127,12 @@ struct Strokes {
     std::vector<Stroke> strokes;
 
     std::size_t bytes() const;
+
+    // The parts that a link may pick are the kinds.
+    static std::vector<std::string> part_names();
+    static std::size_t usual_bytes();
+    Strokes part(std::size_t which) const;
+
     friend bool operator==(const Strokes&, const Strokes&) = default;
 };
 

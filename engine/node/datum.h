@@ -7,7 +7,9 @@
 #include <concepts>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 // Values of a frame that are not pixels: numbers, strokes, a mesh, a camera.
 //
@@ -20,6 +22,12 @@
 //         std::size_t bytes() const { return values.size() * sizeof(double); }
 //         friend bool operator==(const Numbers&, const Numbers&) = default;
 //     };
+//
+// It may have parts, which a link picks by their names as it does a layer of pixels, "lines:outline":
+//
+//     static std::vector<std::string> part_names();
+//     static std::size_t usual_bytes();             // upper bound of the usual frame's, for the planner
+//     Numbers part(std::size_t which) const;
 //
 // Two data that compare equal must be equal to whoever reads them: it is how tests see that one does not
 // depend on tiles and threads.
@@ -65,6 +73,26 @@ std::shared_ptr<const Datum> make_datum(T value) {
 template <DataKind T>
 const T& datum_as(const Datum& datum) {
     return dynamic_cast<const DatumOf<T>&>(datum).value;
+}
+
+// The parts of a kind of data.
+struct DataParts {
+    std::vector<std::string> names;
+    std::size_t usual_bytes = 0;
+    std::shared_ptr<const Datum> (*pick)(const Datum& whole, std::size_t which) = nullptr;
+};
+
+// Null where there are none.
+template <DataKind T>
+const DataParts* parts_of() {
+    if constexpr (requires { T::part_names(); }) {
+        static const DataParts parts{
+            T::part_names(), T::usual_bytes(),
+            [](const Datum& whole, std::size_t which) { return make_datum(datum_as<T>(whole).part(which)); }};
+        return &parts;
+    } else {
+        return nullptr;
+    }
 }
 
 }  // namespace keyline

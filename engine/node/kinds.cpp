@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/node/kinds.h"
 
+#include "engine/node/parts.h"
 #include "engine/node/registry.h"
 
 #include <algorithm>
@@ -57,10 +58,18 @@ std::optional<KindFault> kind_fault(const std::string& port, const Takes& takes,
                      way_between(type.gives, takes)};
 }
 
-std::optional<KindFault> selector_fault(const std::string& from, const NodeType& type) {
+std::optional<KindFault> selector_fault(const std::string& from, const NodeType& type,
+                                        const std::string& selector) {
     if (type.gives.empty()) return std::nullopt;
-    return KindFault{fmt::format("{} gives {}, which has no channels to pick", in_quotes(from), type.gives),
-                     fmt::format("write {}", in_quotes(from))};
+    if (!type.parts)
+        return KindFault{
+            fmt::format("{} gives {}, which has no channels to pick", in_quotes(from), type.gives),
+            fmt::format("write {}", in_quotes(from))};
+    if (find_part(*type.parts, selector)) return std::nullopt;
+    const std::string hint = did_you_mean(selector, type.parts->names);
+    return KindFault{
+        fmt::format("{} gives {}, of which none are {}", in_quotes(from), type.gives, in_quotes(selector)),
+        hint.empty() ? "known are " + listed(type.parts->names) : hint};
 }
 
 }  // namespace keyline

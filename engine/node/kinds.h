@@ -20,7 +20,8 @@ struct KindFault {
 std::optional<KindFault> kind_fault(const std::string& port, const Takes& takes, const std::string& from,
                                     const NodeType& type);
 
-// The same where the link picks channels of the node.
-std::optional<KindFault> selector_fault(const std::string& from, const NodeType& type);
+// The same where the link picks something of the node's data by a name after a colon.
+std::optional<KindFault> selector_fault(const std::string& from, const NodeType& type,
+                                        const std::string& selector);
 
 }  // namespace keyline

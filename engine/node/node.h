@@ -110,6 +110,8 @@ public:
     const T& datum(int slot) const {
         return datum_as<T>(*data_[index(slot)]);
     }
+    // Of whatever kind it is.
+    const Datum& any_datum(int slot) const { return *data_[index(slot)]; }
 
 private:
     std::span<const View> views_;

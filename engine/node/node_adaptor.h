@@ -201,17 +201,19 @@ private:
     std::shared_ptr<const T> node_;
 };
 
-// The kind of data that a node gives; "": pixels.  A source and a compound say it themselves.
+// Says which kind of data a node gives, if it gives no pixels.  A source and a compound say it themselves.
 template <class T>
-std::string gives_of() {
-    if constexpr (requires { T::gives; })
-        return T::gives;
+void tell_what_it_gives(NodeType& type) {
+    const auto tell = [&]<DataKind Made>() {
+        type.gives = Made::kind;
+        type.parts = parts_of<Made>();
+    };
+    if constexpr (requires { typename T::Gives; })
+        tell.template operator()<typename T::Gives>();
     else if constexpr (GatherNode<T>)
-        return GatherOf<T>::Made::kind;
+        tell.template operator()<typename GatherOf<T>::Made>();
     else if constexpr (DeriveNode<T>)
-        return DerivationOf<T>::Made::kind;
-    else
-        return "";
+        tell.template operator()<typename DerivationOf<T>::Made>();
 }
 
 // One input of a node as it stands in the frame being resolved.
@@ -504,7 +506,7 @@ NodeType make_node_type() {
     type.fields = describe_fields<typename T::Params>();
     if constexpr (requires { T::outputs; })
         for (const char* name : T::outputs) type.outputs.emplace_back(name);
-    type.gives = gives_of<T>();
+    tell_what_it_gives<T>(type);
     type.make = &make_node<T>;
     return type;
 }

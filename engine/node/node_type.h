@@ -41,6 +41,7 @@ struct NodeType {
     std::vector<FieldInfo> fields;     // inputs and parameters in declared order
     std::vector<std::string> outputs;  // the channels it makes; empty: those of its input.  A group's links
     std::string gives;                 // the kind of data that it makes instead; "": pixels
+    const DataParts* parts = nullptr;  // that a link may pick of the data; null: none
 
     // Makes a node of the members of its object (without `type` and `about`) that have been validated.  Null
     // where the reader was told of an error between them.

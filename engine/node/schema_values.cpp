@@ -4,11 +4,13 @@
 
 #include "engine/base/identifier.h"
 #include "engine/json/json_reader.h"
+#include "engine/node/parts.h"
 #include "engine/params/computed.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <limits>
 
 namespace keyline {
@@ -206,11 +208,17 @@ private:
         }
     }
 
-    // Data have no channels to pick after a colon.
+    // What may be picked after a colon: any channels of pixels, what data have by name.
+    static std::string selector(const Takes& takes) {
+        if (takes.kind != Takes::Kind::kData) return "(:.+)?";
+        const DataParts* parts = takes.data ? parts_of_kind(takes.data) : nullptr;
+        return parts ? fmt::format("(:({}))?", fmt::join(parts->names, "|")) : "";
+    }
+
     void input(const Takes& takes) {
         const bool is_data = takes.kind == Takes::Kind::kData;
         json_.begin_object().field("type", "string");
-        json_.field("pattern", fmt::format("^{}{}$", kIdentifierPattern, is_data ? "" : "(:.+)?"));
+        json_.field("pattern", fmt::format("^{}{}$", kIdentifierPattern, selector(takes)));
         if (is_data) json_.field("description", TypeInfo::input(takes, false).text());
         json_.end_object();
     }

@@ -9,6 +9,7 @@
 #include "engine/base/pixel_aspect.h"
 #include "engine/color/color.h"
 #include "engine/io/file_identity.h"
+#include "engine/node/parts.h"
 #include "engine/plan/stream_digest.h"
 
 #include <algorithm>
@@ -242,7 +243,7 @@ public:
         if (from < 0 || resolver_.is_sink(from)) throw AlreadyReported{};
         const Stream& whole = resolver_.stream(from, frame);
         last_place_ = in.place;
-        Stream stream = in.selector.empty() ? whole : select(whole, in);
+        Stream stream = in.selector.empty() ? whole : whole.is_data() ? pick(whole, in) : select(whole, in);
         asked_.add(digest_of(stream, resolver_.metadata_digest(stream.metadata), {}));
         return stream;
     }
@@ -440,6 +441,17 @@ private:
             e.node = title();
             resolver_.diagnostics_.error(std::move(e));
         }
+    }
+
+    // Which of the parts was checked when the graph was loaded.
+    Stream pick(const Stream& whole, const Input& in) {
+        const DataParts& parts = *parts_of_kind(whole.data);
+        asked_.add(in.selector);
+        Stream out = whole;
+        out.datum =
+            add(std::make_shared<const PickPart>(whole.data, parts, find_part(parts, in.selector).value()),
+                {Link(whole, {})});
+        return out;
     }
 
     Stream select(const Stream& whole, const Input& in) {

@@ -32,7 +32,7 @@ private:
 
 struct StrokesRead {
     static constexpr Info info{"strokes_read", "Reads strokes from JSON, as strokes_write makes it."};
-    static constexpr const char* gives = Strokes::kind;
+    using Gives = Strokes;
 
     struct Params {
         FileName file;

@@ -118,7 +118,7 @@ struct Contours {
                   "What the strokes are called, as \"material\" for a CryptoMaterial; when absent each is "
                   "called after the depth on both sides."));
     };
-    static constexpr const char* gives = Strokes::kind;
+    using Gives = Strokes;
 
     static void check(const Params& p, Check& c) {
         if (p.step[0] > p.step[1])

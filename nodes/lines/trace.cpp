@@ -273,7 +273,7 @@ struct Trace {
                   "Strokes that have their lines already: what runs along one is left out.",
                   data<Strokes>()));
     };
-    static constexpr const char* gives = Strokes::kind;
+    using Gives = Strokes;
 
     static void check(const Params& p, Check& c) {
         if ((p.mode == Mode::kLevel) != p.level.has_value())

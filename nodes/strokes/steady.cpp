@@ -28,7 +28,7 @@ struct Settle {
 struct Steady {
     static constexpr Info info{"steady",
                                "Strokes that hold together over frames: calm, and without blinking."};
-    static constexpr const char* gives = Strokes::kind;
+    using Gives = Strokes;
 
     struct Params {
         Input in, vector;

@@ -229,7 +229,7 @@ private:
 struct Weight {
     static constexpr Info info{"weight",
                                "How wide strokes are: a width, times what each is and where it is."};
-    static constexpr const char* gives = Strokes::kind;
+    using Gives = Strokes;
     using Params = WeightParams;
 
     static void check(const Params& p, Check& c) {

@@ -212,7 +212,7 @@ private:
 struct Wobble {
     static constexpr Info info{"wobble",
                                "Moves strokes aside a little, as a hand does, anew every few frames."};
-    static constexpr const char* gives = Strokes::kind;
+    using Gives = Strokes;
     using Params = WobbleParams;
 
     static void check(const Params& p, Check& c) {

@@ -98,7 +98,7 @@ struct Points {
 // A source of points: a square's corners.  It counts how often it is read.
 struct PointFile {
     static constexpr Info info{"point_file", "Four points."};
-    static constexpr const char* gives = Points::kind;
+    using Gives = Points;
     struct Params {
         int size = 10;
         static constexpr auto fields =

@@ -207,6 +207,9 @@ TEST_F(Lsp, OffersNodesAndTheLayersOfTheFilesThatTheyRead) {
     EXPECT_THAT(offered(graph_of(R"("a": { "type": "gradient", "in": "render:ViewLayer.Depth.Z" },
     "b": { "type": "threshold", "in": "a:|" })")),
                 Contains("a:magnitude"));
+    EXPECT_THAT(offered(graph_of(R"("a": { "type": "contours", "in": "render" },
+    "b": { "type": "smooth", "in": "a:|" })")),
+                AllOf(IsSupersetOf({"a:outline", "a:crease"}), Not(Contains("a:magnitude"))));
 }
 
 TEST_F(Lsp, OffersFirstTheLayersThatAnInputTakes) {

@@ -15,6 +15,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kThree = R"({
 "strokes": 1, "display": [0, 0, 40, 30], "window": [0, 0, 40, 30],
@@ -74,6 +75,49 @@ TEST_F(StrokeFiles, SurviveAScriptThatMovesRecoloursAndDeletes) {
 )");
     ASSERT_EQ(copy("again.json", "same.json").status, 0);
     EXPECT_EQ(read(folder() / "same.json"), read(folder() / "again.json"));
+}
+
+TEST_F(StrokeFiles, LinksPickKinds) {
+    write("three.json", kThree);
+    ASSERT_EQ(copy("three.json", "all.json").status, 0);
+    const auto picked = [&](const std::string& kind) {
+        graph(R"("in":  { "type": "strokes_read", "file": "three.json" },
+            "out": { "type": "strokes_write", "in": "in:)" +
+              kind + R"(", "file": "picked.json" })");
+        return keyline({"render", "graph.json"});
+    };
+    ASSERT_EQ(picked("crease").status, 0);
+    EXPECT_EQ(read(folder() / "picked.json"), R"({
+"strokes": 1,
+"display": [0, 0, 40, 30],
+"window": [0, 0, 40, 30],
+"objects": {"0000000a": "cup"},
+"lines": [
+{"kind": "crease", "near": "cup", "points": [[20, 5], [25, 6]], "width": [1, 2.5]}
+]
+}
+)");
+    ASSERT_EQ(picked("shadow").status, 0);
+    EXPECT_THAT(read(folder() / "picked.json"), Not(HasSubstr("cup"))) << "names go with their strokes";
+    ASSERT_EQ(picked("ridge").status, 0);
+    EXPECT_THAT(read(folder() / "picked.json"), HasSubstr("\"lines\": [\n]"));
+    const Outcome wrong = picked("creese");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.err,
+                HasSubstr("'in' gives strokes, of which none are 'creese'; did you mean 'crease'?"));
+    EXPECT_THAT(picked("ink").err, HasSubstr("none are 'ink'; known are 'outline', 'occlusion'"));
+}
+
+// Each kind by itself, and all of them together again.
+TEST_F(StrokeFiles, KindsTogetherAreTheWhole) {
+    write("three.json", kThree);
+    ASSERT_EQ(copy("three.json", "all.json").status, 0);
+    graph(R"("in":  { "type": "strokes_read", "file": "three.json" },
+        "both": { "type": "chain", "in": ["in:shadow", "in:crease", "in:outline"], "gap": 0, "min_length": 0 },
+        "out": { "type": "strokes_write", "in": "both", "file": "again.json" })");
+    const Outcome run = keyline({"render", "graph.json"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(read(folder() / "again.json"), read(folder() / "all.json"));
 }
 
 TEST_F(StrokeFiles, AreReadByFrame) {

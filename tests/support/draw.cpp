@@ -193,8 +193,10 @@ NodeCase draw_case(const NodeType& type, Draw& draw, const std::function<Rect(Dr
         const Draw::NameInput input = [&](const TypeInfo& t) {
             if (t.takes.kind == Takes::Kind::kData) {
                 const std::string name = fmt::format("data{}", data++);
-                c.nodes.set(name, draw.parameters(giver_of(t.takes), input));
-                return name;
+                const NodeType& giver = giver_of(t.takes);
+                c.nodes.set(name, draw.parameters(giver, input));
+                if (!giver.parts || !draw.one_in(4)) return name;
+                return name + ":" + draw.of(giver.parts->names);
             }
             const std::string name = fmt::format("image{}", c.inputs.size());
             for (int frame = 0; frame < 3; ++frame)

@@ -40,7 +40,7 @@ Stream source_of(Builder& builder, const Strokes& strokes) {
 
 struct GivenStrokes {
     static constexpr Info info{"given_strokes", "Strokes of the test."};
-    static constexpr const char* gives = Strokes::kind;
+    using Gives = Strokes;
     struct Params {
         static constexpr auto fields = declare();
     };
@@ -50,7 +50,7 @@ struct GivenStrokes {
 
 struct RandomStrokes {
     static constexpr Info info{"random_strokes", "Strokes with some of everything."};
-    static constexpr const char* gives = Strokes::kind;
+    using Gives = Strokes;
     struct Params {
         int seed = 1;
         static constexpr auto fields =
