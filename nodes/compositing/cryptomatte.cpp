@@ -2,32 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/kit/cryptomatte.h"
 
-#include "engine/base/channels.h"
+#include "engine/kit/wanted_objects.h"
 #include "engine/node/node_adaptor.h"
 #include "engine/node/pixel_loop.h"
 
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <compare>
 #include <fmt/format.h>
 
 namespace keyline {
 
 namespace {
 
-// An object to look for.
-struct Object {
-    uint32_t id = 0;
-    std::string unchecked;  // its name, where no manifest says that there is such an object
-
-    friend auto operator<=>(const Object&, const Object&) = default;
-};
-
 // The coverage of some objects, over all ranks.
 class Coverage final : public Operation {
 public:
-    explicit Coverage(std::vector<Object> objects) : objects_(std::move(objects)), seen_(objects_.size()) {}
+    explicit Coverage(std::vector<WantedObject> objects)
+        : objects_(std::move(objects)), seen_(objects_.size()) {}
 
     void compute(const Inputs& in, Outputs out, Scratch&) const override {
         const std::span<const View> ranks = in.slot(0);
@@ -54,7 +46,7 @@ public:
 
 private:
     bool find(uint32_t id) const {
-        const auto it = std::ranges::lower_bound(objects_, id, {}, &Object::id);
+        const auto it = std::ranges::lower_bound(objects_, id, {}, &WantedObject::id);
         if (it == objects_.end() || it->id != id) return false;
         seen_[static_cast<std::size_t>(it - objects_.begin())].store(true, std::memory_order_relaxed);
         return true;
@@ -71,7 +63,7 @@ private:
         }
     }
 
-    std::vector<Object> objects_;  // sorted by id; the id 0, where there is nothing, is never one
+    std::vector<WantedObject> objects_;  // sorted by id; the id 0, where there is nothing, is never one
     mutable std::vector<std::atomic<bool>> seen_;
     mutable std::atomic<bool> ran_ = false;
 };
@@ -110,47 +102,12 @@ struct CryptomatteNode {
     const Params params;
 
 private:
-    std::vector<Object> wanted(Builder& builder, const CryptomatteInfo& of) const {
+    std::vector<WantedObject> wanted(Builder& builder, const CryptomatteInfo& of) const {
         std::vector<std::string> faults;
         const auto manifest = CryptomatteManifest::find(builder, of, faults);
         for (const std::string& fault : faults)
             builder.warn(fmt::format("the Cryptomatte {}: {}", in_quotes(of.layers), fault));
-        std::vector<Object> out;
-        for (const std::string& object : params.objects) {
-            const auto found = objects_of(builder, manifest, object);
-            out.insert(out.end(), found.begin(), found.end());
-        }
-        std::ranges::sort(out);  // of one id, first the one that is known to be there
-        const auto is_same = [](const Object& a, const Object& b) { return a.id == b.id; };
-        out.erase(std::unique(out.begin(), out.end(), is_same), out.end());
-        return out;
-    }
-
-    static std::vector<Object> objects_of(Builder& builder,
-                                          const std::shared_ptr<const CryptomatteManifest>& manifest,
-                                          const std::string& object) {
-        std::vector<Object> listed;
-        if (manifest)
-            for (const uint32_t id : manifest->ids(object)) listed.push_back({id, {}});
-        if (!listed.empty()) return listed;
-        const bool whole = manifest && manifest->fault().empty();
-        if (whole || (manifest && has_wildcard(object))) refuse_unknown(builder, *manifest, object);
-        if (has_wildcard(object))
-            builder.bad_parameter(
-                "objects", fmt::format("the input has no manifest to look {} up in", in_quotes(object)),
-                "give whole names, and \\* for a star that belongs to one");
-        builder.warn(fmt::format("{} is not in the manifest; it is looked for by its hash, unchecked",
-                                 in_quotes(literal_name(object))));
-        return {{cryptomatte_id(literal_name(object)), literal_name(object)}};
-    }
-
-    static void refuse_unknown(Builder& builder, const CryptomatteManifest& manifest,
-                               const std::string& object) {
-        std::string near = did_you_mean(object, manifest.names());
-        builder.bad_parameter("objects",
-                              fmt::format("none of the {} objects of the Cryptomatte is {}", manifest.size(),
-                                          in_quotes(object)),
-                              near.empty() ? "there are " + some_of(manifest.names()) : near);
+        return wanted_objects(builder, manifest, params.objects);
     }
 };
 

@@ -4,11 +4,16 @@
 
 #include "engine/kit/middles.h"
 #include "engine/kit/object_ids.h"
+#include "engine/kit/wanted_objects.h"
 #include "engine/node/node_adaptor.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace keyline {
 
@@ -51,6 +56,7 @@ struct LinkCrossings {
             out.strokes.insert(out.strokes.end(), list.begin(), list.end());
         if (kind)
             for (Stroke& s : out.strokes) s.kind = *kind;
+        if (owners) std::erase_if(out.strokes, [&](const Stroke& s) { return !is_wanted(s.near); });
         arrange(out);
         return out;
     }
@@ -68,9 +74,12 @@ struct LinkCrossings {
         return static_cast<std::size_t>(window.area()) / kBusy * sizeof(StrokeVertex);
     }
 
+    bool is_wanted(uint32_t id) const { return std::ranges::binary_search(*owners, id); }
+
     const ContourOptions options;
     const double thin;
-    const std::optional<StrokeKind> kind;  // of all; else each has its own
+    const std::optional<StrokeKind> kind;               // of all; else each has its own
+    const std::optional<std::vector<uint32_t>> owners;  // whose lines stay, sorted; else all
     const Rect display, window;
     const Names names;
 };
@@ -82,6 +91,7 @@ struct Contours {
     struct Params {
         Input in;
         std::string layer;
+        std::vector<std::string> objects{"*"};
         std::optional<Input> depth;
         double sigma = 0.7;
         std::array<double, 2> step{1, 3};
@@ -95,6 +105,11 @@ struct Contours {
                   "less exact."),
             field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one.")
                 .naming(Naming::kCryptomatte),
+            field(&Params::objects, "objects",
+                  "Whose lines stay, by name: * stands for any characters, \\* for a star. A line belongs to "
+                  "the nearer of "
+                  "two objects.")
+                .naming(Naming::kObject),
             input(&Params::depth, "depth",
                   "Where objects are nearer, smaller: says whose a line is, and where objects touch.  "
                   "Without it all lines are outlines, of the larger id.",
@@ -139,9 +154,11 @@ struct Contours {
         const Stream thin = found(builder, FindThinParts({kWider * params.thin, ids.integers}), in, links);
         const ContourOptions options{params.sigma, pixel_angle, params.step, params.min_length,
                                      ids.crypto ? kOfCoverage : kOfIds};
+        const auto manifest = ids.crypto ? manifest_of(builder, *ids.crypto->info) : nullptr;
         return add_operation(builder,
-                             LinkCrossings{options, params.thin, params.kind, in.display, in.window,
-                                           ids.crypto ? names_of(builder, *ids.crypto->info) : Names{}},
+                             LinkCrossings{options, params.thin, params.kind,
+                                           owners(builder, ids.crypto.has_value(), manifest), in.display,
+                                           in.window, names_in(manifest)},
                              {crossings, thin});
     }
 
@@ -163,14 +180,31 @@ private:
         return in;
     }
 
-    static Names names_of(Builder& builder, const CryptomatteInfo& of) {
-        Names out;
+    static std::shared_ptr<const CryptomatteManifest> manifest_of(Builder& builder,
+                                                                  const CryptomatteInfo& of) {
         std::vector<std::string> faults;
-        const auto manifest = CryptomatteManifest::find(builder, of, faults);
+        auto manifest = CryptomatteManifest::find(builder, of, faults);
         for (const std::string& fault : faults)
             builder.warn(fmt::format("the Cryptomatte '{}': {}", of.layers, fault));
+        return manifest;
+    }
+
+    static Names names_in(const std::shared_ptr<const CryptomatteManifest>& manifest) {
+        Names out;
         if (manifest)
             for (const auto& [name, id] : manifest->entries()) out.emplace(id, name);
+        return out;
+    }
+
+    // Nothing where all stay.
+    std::optional<std::vector<uint32_t>> owners(
+        Builder& builder, bool has_names, const std::shared_ptr<const CryptomatteManifest>& manifest) const {
+        if (std::ranges::count(params.objects, "*") > 0) return {};
+        if (!has_names)
+            builder.bad_parameter("objects", "the input is ids, which have no names",
+                                  "give it a Cryptomatte, or leave 'objects' out");
+        std::vector<uint32_t> out;
+        for (const WantedObject& o : wanted_objects(builder, manifest, params.objects)) out.push_back(o.id);
         return out;
     }
 };

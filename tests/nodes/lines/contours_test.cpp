@@ -10,9 +10,12 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <numbers>
+#include <set>
 
 namespace keyline::testing {
 namespace {
+
+using ::testing::ElementsAre;
 
 using Images = std::map<std::string, Image>;
 
@@ -189,6 +192,29 @@ TEST(Contours, WhereObjectsMeetIsAnIntersection) {
         if (p.far_depth - p.near_depth < 0.01) seen += p.length;
     EXPECT_NEAR(meets, seen, 0.25 * seen);
     EXPECT_GT(outline, 30);
+}
+
+TEST(Contours, OfNamedObjectsAreTheLinesThatBelongToThem) {
+    const Image passes = passes_of(two_discs());
+    const auto owners = [&](const std::vector<Json>& objects) {
+        std::set<std::string> out;
+        const Strokes strokes =
+            strokes_in(Images{{"in", passes}},
+                       {{"layer", "CryptoObject"}, {"depth", "in:Depth"}, {"objects", Json::array(objects)}});
+        for (const Stroke& s : strokes.strokes) out.insert(strokes.names.at(s.near));
+        return out;
+    };
+    EXPECT_THAT(owners({"*"}), ElementsAre("before", "behind"));
+    EXPECT_THAT(owners({"before"}), ElementsAre("before"));
+    EXPECT_THAT(owners({"b*d"}), ElementsAre("behind"));
+    EXPECT_THAT(owners({"be*", "before"}), ElementsAre("before", "behind"));
+    const Strokes all = strokes_of(two_discs());
+    for (const Stroke& s :
+         strokes_in(Images{{"in", passes}},
+                    {{"layer", "CryptoObject"}, {"depth", "in:Depth"}, {"objects", {"before"}}})
+             .strokes)
+        EXPECT_EQ(std::ranges::count(all.strokes, s), 1) << "the same strokes";
+    EXPECT_THROW(owners({"befor"}), Failure);
 }
 
 TEST(Contours, WithoutDepthTheLargerIdOwnsTheLine) {
