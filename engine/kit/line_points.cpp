@@ -4,6 +4,7 @@
 
 #include "engine/base/index.h"
 #include "engine/kit/sparse_row.h"
+#include "engine/kit/unmixed.h"
 
 #include <algorithm>
 #include <array>
@@ -134,13 +135,27 @@ uint32_t owner_at(std::span<const View> ids, bool integers, int x, int y) {
 }
 
 void put(Outputs out, const LinePoint& p, int x, int y) {
-    const std::array values{p.strength, p.dx, p.dy, p.tx, p.ty, std::bit_cast<float>(p.owner)};
+    const std::array values{p.strength, p.dx,
+                            p.dy,       p.tx,
+                            p.ty,       std::bit_cast<float>(p.owner),
+                            p.aside,    p.by_column ? 1.0F : 0.0F};
     for (std::size_t i = 0; i < values.size(); ++i) *out[i].at(x, y) = values[i];
+}
+
+// An edge lies on an axis through its pixel; on it the line runs where the normals have it.
+void place_by(std::span<const View> normals, LinePoint& p) {
+    p.by_column = std::fabs(p.tx) > std::fabs(p.ty);
+    const int dx = p.by_column ? 0 : 1, dy = 1 - dx;
+    const float off = p.by_column ? p.dy : p.dx;
+    const int step = off < 0 ? -1 : 0;
+    if (const auto edge = unmixed_edge(normals, p.x + step * dx, p.y + step * dy, dx, dy))
+        p.aside = static_cast<float>(*edge + step) - off;
 }
 
 // Where there is none, only the output that says so is written.
 template <class Kind>
-void find(const Kind& kind, double least, std::span<const View> ids, bool integers, Outputs out) {
+void find(const Kind& kind, double least, std::span<const View> ids, bool integers, Outputs out,
+          std::span<const View> normals = {}) {
     const Rect& rect = out[0].rect;
     for (int y = rect.y0; y < rect.y1; ++y) {
         std::fill_n(out[0].row(y), rect.width(), 0.0F);
@@ -148,6 +163,7 @@ void find(const Kind& kind, double least, std::span<const View> ids, bool intege
             LinePoint p = kind.at(x, y);
             if (!(p.strength > 0) || !std::isfinite(p.strength) || double{p.strength} < least) return;
             p.owner = owner_at(ids, integers, x, y);
+            if (!normals.empty()) place_by(normals, p);
             put(out, p, x, y);
         });
     }
@@ -155,8 +171,13 @@ void find(const Kind& kind, double least, std::span<const View> ids, bool intege
 
 }  // namespace
 
+Halo FindLinePoints::halo() const {
+    const int reach = std::max(field_.reach() + 1, kUnmixReach + 1);
+    return {reach, reach};
+}
+
 void FindLinePoints::compute(const Inputs& in, Outputs out, Scratch& scratch) const {
-    const std::span<const View> channels = in.slot(0), ids = in.slot(1);
+    const std::span<const View> channels = in.slot(0), ids = in.slot(1), normals = in.slot(2);
     const Rect around = intersect(grow(out[0].rect, {1, 1}), channels[0].rect);
     const auto derive = [&](const auto& orders) {
         std::vector<View> fields;
@@ -169,10 +190,10 @@ void FindLinePoints::compute(const Inputs& in, Outputs out, Scratch& scratch) co
         return fields;
     };
     if (channels.size() == 3) {
-        find(Edges(channels, around, least_, scratch), least_, ids, integers_, out);
+        find(Edges(channels, around, least_, scratch), least_, ids, integers_, out, normals);
     } else if (feature_ == LineFeature::kEdge) {
         const std::vector<View> fields = derive(Edges::kOrders);
-        find(Edges(fields, around, least_, scratch), least_, ids, integers_, out);
+        find(Edges(fields, around, least_, scratch), least_, ids, integers_, out, normals);
     } else {
         const std::vector<View> fields = derive(Ridges::kOrders);
         find(Ridges(fields, feature_ == LineFeature::kRidge ? 1.0F : -1.0F), least_, ids, integers_, out);
@@ -185,7 +206,7 @@ std::vector<LinePoint> points_in(std::span<const View> outputs, const Rect& bloc
         const auto add = [&](int i) {
             const auto value = [&](std::size_t k) { return *outputs[k].at(block.x0 + i, y); };
             out.push_back({block.x0 + i, y, value(1), value(2), value(3), value(4), value(0),
-                           std::bit_cast<uint32_t>(value(5))});
+                           std::bit_cast<uint32_t>(value(5)), value(6), value(7) != 0});
         };
         each_where(
             outputs[0].at(block.x0, y), block.width(), [](float strength) { return strength > 0; }, add);

@@ -17,25 +17,28 @@
 namespace KEYLINE_API keyline {
 
 struct LinePoint {
-    int x = 0, y = 0;      // its pixel
-    float dx = 0, dy = 0;  // from the pixel's centre; at most 0.6 either way
-    float tx = 0, ty = 0;  // along the line, of length 1; of an edge with the larger values on the right
-    float strength = 0;    // above 0
-    uint32_t owner = 0;    // the object that its pixel shows; 0 where it is not known
+    int x = 0, y = 0;        // its pixel
+    float dx = 0, dy = 0;    // from the pixel's centre; at most 0.6 either way
+    float tx = 0, ty = 0;    // along the line, of length 1; of an edge with the larger values on the right
+    float strength = 0;      // above 0
+    uint32_t owner = 0;      // the object that its pixel shows; 0 where it is not known
+    float aside = 0;         // from there across, along the axis that it lies on, to where the line runs
+    bool by_column = false;  // that axis is the column
 };
 
 enum class LineFeature { kEdge, kRidge, kValley };
 
 // At most one a pixel, with at least a strength.  The first input is one channel; or dx, dy and magnitude,
 // for edges, of a gradient that was taken elsewhere.  The second, which may be missing, is the ids of
-// objects, as find_object_ids() has them.
+// objects, as find_object_ids() has them; the third, which may be missing too, normals that edges are placed
+// by.
 class FindLinePoints final : public Operation {
 public:
-    static constexpr int kOutputs = 6;
+    static constexpr int kOutputs = 8;
     FindLinePoints(LineFeature feature, double sigma, bool integers, double least)
         : feature_(feature), field_(sigma), integers_(integers), least_(least) {}
 
-    Halo halo() const override { return {field_.reach() + 1, field_.reach() + 1}; }
+    Halo halo() const override;
     void compute(const Inputs& in, Outputs out, Scratch& scratch) const override;
     double cost() const override { return 20.0 * field_.reach(); }
 

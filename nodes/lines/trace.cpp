@@ -144,7 +144,10 @@ private:
 
     Stroke stroke_of(const PointChain& chain) const {
         std::vector<MapPoint> places;
-        for (const LinePoint& p : chain.points) places.push_back(place(p));
+        for (const LinePoint& p : chain.points) {
+            MapPoint& at = places.emplace_back(place(p));
+            (p.by_column ? at.y : at.x) += double{p.aside};
+        }
         Stroke out = stroke_through(places, chain.closed, style);
         out.near = out.far = owner_of(chain);
         grade(chain, out);
@@ -241,7 +244,7 @@ struct Trace {
         bool soft = true;
         std::optional<Input> owner;
         std::string layer;
-        std::optional<Input> except;
+        std::optional<Input> except, normal;
 
         static constexpr auto fields = declare(
             input(&Params::in, "in",
@@ -270,8 +273,12 @@ struct Trace {
             field(&Params::layer, "layer", "The Cryptomatte's name; empty where there is but one.")
                 .naming(Naming::kCryptomatte),
             input(&Params::except, "except",
-                  "Strokes that have their lines already: what runs along one is left out.",
-                  data<Strokes>()));
+                  "Strokes that have their lines already: what runs along one is left out.", data<Strokes>()),
+            input(&Params::normal, "normal",
+                  "Averaged normals, for edges of what has one sample a pixel, as steps in depth: they tell "
+                  "where "
+                  "between two pixels one surface ends before the other.",
+                  named("X", "Y", "Z")));
     };
     using Gives = Strokes;
 
@@ -285,6 +292,8 @@ struct Trace {
         if (p.mode == Mode::kLevel && (p.owner || p.except))
             c.error(p.owner ? "owner" : "except", "lines of a level have no owner and no exceptions",
                     "leave it out");
+        if (p.mode != Mode::kEdge && p.normal)
+            c.error("normal", "'normal' places edges; the mode is another", "leave it out");
         if (p.low && p.high && *p.low > *p.high)
             c.error("low",
                     fmt::format("'low' is {}; it must not be above 'high', which is {}", *p.low, *p.high));
@@ -310,6 +319,11 @@ struct Trace {
             const Stream owner = builder.input(*params.owner);
             ids = find_object_ids(builder, owner, params.layer);
             links[1] = {owner, ids.values};
+        }
+        links.emplace_back();
+        if (params.normal) {
+            const Stream normal = builder.input(*params.normal);
+            links[2] = {normal, take_channels(builder, normal, named("X", "Y", "Z"))};
         }
         const auto find =
             std::make_shared<const FindLinePoints>(feature(), gradient ? 0 : params.sigma, ids.integers, low);

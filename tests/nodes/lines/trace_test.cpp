@@ -10,6 +10,7 @@
 #include <functional>
 #include <gmock/gmock.h>
 #include <numbers>
+#include <random>
 
 namespace keyline::testing {
 namespace {
@@ -242,6 +243,73 @@ TEST(Trace, TellsWhatDoesNotFit) {
     EXPECT_THAT(error_of("trace", {{"low", 2}, {"high", 1}}, in), HasSubstr("must not be above"));
     EXPECT_THAT(error_of("trace", {{"mode", "level"}, {"level", 2}, {"owner", "in"}}, in),
                 HasSubstr("no owner"));
+}
+
+// As a renderer averages them: of so many places in a pixel, evenly or at random.
+void average_normals(Image& passes, const Scene& scene, int samples, bool at_random) {
+    std::mt19937 random;
+    std::uniform_real_distribution<double> somewhere(0, 1);
+    const std::array axes{&Vec3::x, &Vec3::y, &Vec3::z};
+    const std::array names{"Normal.X", "Normal.Y", "Normal.Z"};
+    std::array<Image, 3> means{passes, passes, passes};
+    for (int y = scene.window.y0; y < scene.window.y1; ++y)
+        for (int x = scene.window.x0; x < scene.window.x1; ++x) {
+            Vec3 sum;
+            for (int i = 0; i < samples * samples; ++i) {
+                const double u = at_random ? somewhere(random) : (i % samples + 0.5) / samples,
+                             v = at_random ? somewhere(random) : (i / samples + 0.5) / samples;
+                const Vec3 n = front_of(scene, {x + u, y + v}).hit.normal;
+                sum = {sum.x + n.x, sum.y + n.y, sum.z + n.z};
+            }
+            for (std::size_t c = 0; c < 3; ++c)
+                means[c].at(names[c], x, y) = static_cast<float>(sum.*axes[c] / (samples * samples));
+        }
+    for (std::size_t c = 0; c < 3; ++c)
+        passes.fill(names[c], [&](int x, int y) { return means[c].at(names[c], x, y); });
+}
+
+// How far the fold of what stands before something else is from where it is.
+double fold_rms(const Scene& scene, bool by_normals, double least_length, int samples,
+                bool at_random = false) {
+    Image passes = passes_of(scene);
+    average_normals(passes, scene, samples, at_random);
+    Json folds{{"type", "trace"}, {"in", "steps"}, {"low", 0.02}, {"high", 0.05}, {"kind", "fold"}};
+    if (by_normals) folds.set("normal", "in:Normal");
+    const Strokes strokes =
+        strokes_in({{"steps", {{"type", "planestep"}, {"in", "in:Depth"}}}, {"folds", folds}}, "folds",
+                   {{"in", {passes}}});
+    const std::vector<TruePoint> truth = lines_of(scene);
+    double sum = 0, length = 0;
+    int n = 0;
+    for (const Stroke& s : strokes.strokes) {
+        length += length_of(s);
+        for (const StrokeVertex& v : s.vertices) {
+            sum += std::pow(offset_from(truth, {v.x, v.y}), 2);
+            ++n;
+        }
+    }
+    EXPECT_GT(length, least_length);
+    return std::sqrt(sum / n);
+}
+
+TEST(Trace, FoldsArePlacedByAveragedNormals) {
+    const Camera camera;
+    const Thing wall = polygon("wall", {{-9, -9}, {60, -9}, {60, 60}, {-9, 60}}, 9);
+    for (const double radius : {0.9, 1.5}) {
+        const Scene scene{.things = {wall, sphere("ball", camera, {0.13, -0.08, 5}, radius)}};
+        const double length = 0.7 * 2 * std::numbers::pi * camera.focal * radius / 5;
+        const double at_centres = fold_rms(scene, false, length, 8),
+                     placed = fold_rms(scene, true, length, 8),
+                     noisy = fold_rms(scene, true, length, 4, true);
+        EXPECT_GT(at_centres, 0.2) << radius;
+        EXPECT_LT(placed, 0.06) << radius;
+        EXPECT_LT(noisy, 0.13) << radius;
+    }
+}
+
+TEST(Trace, OnlyEdgesArePlacedByNormals) {
+    EXPECT_THAT(error_of("trace", {{"mode", "ridge"}, {"low", 0.1}, {"normal", "in"}}, ascii({"1"})),
+                HasSubstr("'normal' places edges"));
 }
 
 }  // namespace
