@@ -31,6 +31,7 @@ constexpr double kHem = 0.75;      // pixels that an outline may lie outside of 
 constexpr double kTouches = 0.05;  // pixels from a middle: on it
 constexpr double kTouch = 1.25;    // pixels from a thin thing to the end of a line behind it
 constexpr double kEnd = 3;         // pixels from an outline that is cut to the end that it goes on from
+constexpr double kCap = 12;        // pixels of outline around such an end
 constexpr std::size_t kCrumb = 3;  // vertices of an outline that are no line of their own
 constexpr double kRimReach = 5;    // pixels
 
@@ -154,6 +155,12 @@ private:
         });
         for (Stroke& s : strokes) {
             begin_at_upper_end(s);
+            if (!s.closed) {
+                straighten_end(s.vertices);
+                std::ranges::reverse(s.vertices);
+                straighten_end(s.vertices);
+                std::ranges::reverse(s.vertices);
+            }
             measure(s);
             double sum = 0;
             for (const StrokeVertex& v : s.vertices) sum += v.epsilon;
@@ -170,6 +177,35 @@ private:
         if (s.closed || place(s.vertices.front()) <= place(s.vertices.back())) return;
         std::ranges::reverse(s.vertices);
         std::swap(s.ends[0], s.ends[1]);
+    }
+
+    // Where a thing ends there is no across, and the last points turn into its corners: the last turns go
+    // back on the way that leads there, as far along it as they are.
+    static void straighten_end(std::vector<StrokeVertex>& v) {
+        const std::size_t n = v.size();
+        if (n < kBlunt + kAround + 2) return;
+        std::size_t sound = n - 1 - kBlunt;  // the last vertex that is not too near the end
+        const MapPoint way = way_to(v, sound);
+        while (sound + 1 < n && turns_little(way, v[sound], v[sound + 1])) ++sound;
+        if (sound + 1 == n) return;
+        const double along = (v[n - 1].x - v[sound].x) * way.x + (v[n - 1].y - v[sound].y) * way.y;
+        StrokeVertex end = v[n - 1];
+        end.x = v[sound].x + along * way.x;
+        end.y = v[sound].y + along * way.y;
+        v.resize(sound + 1);
+        if (along > kLeast) v.push_back(end);
+    }
+
+    // Of length 1, from some vertices before.
+    static MapPoint way_to(const std::vector<StrokeVertex>& v, std::size_t i) {
+        const double x = v[i].x - v[i - kAround].x, y = v[i].y - v[i - kAround].y;
+        const double length = std::sqrt(x * x + y * y);
+        return length > 0 ? MapPoint{x / length, y / length} : MapPoint{0, 0};
+    }
+
+    static bool turns_little(const MapPoint& way, const StrokeVertex& a, const StrokeVertex& b) {
+        const double x = b.x - a.x, y = b.y - a.y;
+        return x * way.x + y * way.y > kOnward * std::sqrt(x * x + y * y);
     }
 
     // Near the rim nobody knows how a thing goes on, so its middle does as before.
@@ -193,6 +229,9 @@ private:
     }
 
     static constexpr double kNever = 1e9;
+    static constexpr std::size_t kBlunt = 3;  // points from an end that may be turned by it
+    static constexpr double kOnward = 0.95;   // cosine of what a thin thing may turn within that
+    static constexpr double kLeast = 0.25;    // pixels between vertices
     static constexpr double kWider = 1.4;
     static constexpr int kShare = 4;  // a part of so many in a chain says that it is a gap
     static constexpr double kSure = 0.05,
@@ -346,7 +385,10 @@ private:
         Stroke part = outline;
         part.vertices.assign(outline.vertices.begin() + static_cast<std::ptrdiff_t>(begin),
                              outline.vertices.begin() + static_cast<std::ptrdiff_t>(end));
-        if (begin > 0 && end < n && length_of(part) < min_length_) return;
+        if (begin > 0 && end < n &&
+            (length_of(part) < min_length_ ||
+             is_cap(part, outline.vertices[begin - 1], outline.vertices[end])))
+            return;
         if (begin > 0) {
             part.vertices.insert(part.vertices.begin(), from(outline, begin, begin - 1));
             part.ends[0] = StrokeEnd::kJoined;
@@ -356,6 +398,12 @@ private:
             part.ends[1] = StrokeEnd::kJoined;
         }
         out.push_back(std::move(part));
+    }
+
+    // The way round the end of something thin, from one side of its middle to the other.
+    static bool is_cap(const Stroke& part, const StrokeVertex& before, const StrokeVertex& after) {
+        const double x = after.x - before.x, y = after.y - before.y;
+        return x * x + y * y < kEnd * kEnd && length_of(part) < kCap;
     }
 
     // Where it begins: the end of a middle, or the vertex that is covered.

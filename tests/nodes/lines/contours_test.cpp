@@ -357,6 +357,39 @@ TEST(Contours, AWireIsOneStrokeAlongItsMiddle) {
         }
 }
 
+// Ends have no across: they lead nowhere else than the wire does.
+TEST(Contours, AWireEndsAsItRuns) {
+    for (const double width : {0.6, 0.9, 1.4})
+        for (const double degrees : {5.0, 27.0, 45.0, 71.0, 100.0, 150.0}) {
+            const double angle = degrees * std::numbers::pi / 180, x = std::cos(angle), y = std::sin(angle);
+            const Point from{kOnWire.x - 15 * x, kOnWire.y - 15 * y},
+                to{kOnWire.x + 15 * x, kOnWire.y + 15 * y};
+            const Strokes strokes = strokes_of(Scene{.things = {wire("w", from, to, width, 5)}});
+            ASSERT_EQ(strokes.strokes.size(), 1U) << degrees << " degrees, " << width;
+            const Stroke& s = strokes.strokes.front();
+            EXPECT_NEAR(keyline::length_of(s), 30, 3) << degrees << " degrees, " << width;
+            const std::size_t n = s.vertices.size();
+            for (const std::size_t i : {std::size_t{0}, std::size_t{1}, n - 2, n - 1})
+                EXPECT_LT(std::fabs(off_wire(s.vertices[i], degrees)), 0.3)
+                    << degrees << " degrees, " << width;
+        }
+}
+
+// As a whisker at its root: the blunt end has no outline of its own.
+TEST(Contours, AThinThingsBluntEndHasNoOutline) {
+    for (const double degrees : {5.0, 27.0, 45.0, 71.0, 100.0, 150.0}) {
+        const double angle = degrees * std::numbers::pi / 180, x = std::cos(angle), y = std::sin(angle);
+        const auto at = [&](double along, double across) {
+            return Point{kOnWire.x + along * x - across * y, kOnWire.y + along * y + across * x};
+        };
+        const Strokes strokes = strokes_of(
+            Scene{.things = {polygon("w", {at(-15, -0.5), at(15, -1), at(15, 1), at(-15, 0.5)}, 5)}});
+        ASSERT_EQ(strokes.strokes.size(), 1U) << degrees << " degrees";
+        EXPECT_EQ(strokes.strokes.front().kind, StrokeKind::kRidge);
+        EXPECT_NEAR(keyline::length_of(strokes.strokes.front()), 30, 4.5) << degrees << " degrees";
+    }
+}
+
 TEST(Contours, WhatIsNotThinHasOutlines) {
     for (const double degrees : {0.0, 27.0, 45.0}) {
         const Strokes thick = strokes_of(wire_at(degrees, 3));
