@@ -16,10 +16,11 @@ namespace keyline {
 
 namespace {
 
-constexpr double kMeets = 0.5;   // pixels between ends that are one point
-constexpr double kSharpest = 0;  // cosine of the sharpest turn of a line that goes on at a point
-constexpr double kShare = 3;     // a stroke is so many times longer than a gap beside it
-constexpr double kTangent = 3;   // pixels of a stroke that the direction of its end is told from
+constexpr double kMeets = 0.5;        // pixels between ends that are one point
+constexpr double kSharpest = 0;       // cosine of the sharpest turn of a line that goes on at a point
+constexpr double kShare = 3;          // a stroke is so many times longer than a gap beside it
+constexpr double kStraightReach = 2;  // how much farther a line that ends straight goes on to one ahead
+constexpr double kTangent = 3;        // pixels of a stroke that the direction of its end is told from
 
 struct End {
     int stroke = -1, last = 0;
@@ -52,6 +53,23 @@ Tip tip_of(const Stroke& s, End e) {
         length = std::sqrt(x * x + y * y);
     }
     return length > 0 ? Tip{e, tip.x, tip.y, x / length, y / length} : Tip{e, tip.x, tip.y, 0, 0};
+}
+
+// Whether the last vertices of a stroke before an end lie in a row, so that it is known where it goes on.
+bool is_straight(const Stroke& s, bool last) {
+    constexpr std::size_t kRow = 10;
+    constexpr double kShake = 0.12;  // pixels, rms
+    const std::size_t n = s.vertices.size();
+    if (n <= kRow) return false;
+    const auto from_end = [&](std::size_t k) { return s.vertices[last ? n - 1 - k : k]; };
+    const StrokeVertex tip = from_end(0);
+    const double x = from_end(kRow).x - tip.x, y = from_end(kRow).y - tip.y, length2 = x * x + y * y;
+    double sum = 0;
+    for (std::size_t k = 1; k < kRow; ++k) {
+        const double off = (from_end(k).x - tip.x) * y - (from_end(k).y - tip.y) * x;
+        sum += off * off;
+    }
+    return length2 > 0 && sum / length2 < kShake * kShake * kRow;
 }
 
 class Joiner {
@@ -207,9 +225,11 @@ void meet_strokes(std::vector<Stroke>& strokes, double reach) {
     for (const Stroke& s : strokes) all.add(s);
     for (int s = 0; s < static_cast<int>(strokes.size()); ++s) {
         Stroke& stroke = strokes[index(s)];
-        const double most = std::min(reach, length_of(stroke) / kShare);
+        const double length = length_of(stroke);
         for (const int last : {0, 1}) {
             if (stroke.closed || stroke.ends[index(last)] != StrokeEnd::kEnd) continue;
+            const double far = is_straight(stroke, last != 0) ? kStraightReach * reach : reach;
+            const double most = std::min(far, length / kShare);
             const Tip tip = tip_of(stroke, {s, last});
             const double ahead = all.ahead({tip.x, tip.y, tip.tx, tip.ty, stroke.kind}, most, s);
             if (!(ahead <= most)) continue;

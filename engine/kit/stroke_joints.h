@@ -15,8 +15,8 @@ namespace KEYLINE_API keyline {
 // well, by the strokes' order.
 std::vector<Stroke> join_strokes(std::vector<Stroke> strokes, double gap, double angle);
 
-// Loose ends that point at another stroke at most `reach` pixels ahead, and a third of their own length, go
-// on to it.
+// Loose ends that point at another stroke at most `reach` pixels ahead, twice that where they are straight,
+// and a third of their own length, go on to it.
 void meet_strokes(std::vector<Stroke>& strokes, double reach);
 
 }  // namespace keyline

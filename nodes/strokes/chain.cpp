@@ -28,15 +28,19 @@ struct Chain {
             field(&Params::in, "in", "Strokes, as many lists as there are.", Constraint{{}, data<Strokes>()})
                 .required(),
             field(&Params::gap, "gap",
-                  "The widest gap that two ends are joined across, and an end to a line ahead of it.",
+                  "The widest gap that two ends are joined across, and an end to a line ahead of it; twice "
+                  "as wide "
+                  "where a line ends straight.",
                   px(0, 50)),
             field(&Params::angle, "angle", "How much the line may turn at a gap.", between(0, 90, "degrees")),
             field(&Params::dedupe, "dedupe",
                   "Of two strokes that run along each other within this only one stays; 0: both do.",
                   px(0, 10)),
-            field(&Params::min_length, "min_length",
-                  "What is shorter and has a loose end, or goes round in less, is left out.",
-                  at_least(0, "pixels")),
+            field(
+                &Params::min_length, "min_length",
+                "What is shorter and has a loose end, or goes round in less, is left out; what has two loose "
+                "ends must be half as long again.",
+                at_least(0, "pixels")),
             field(
                 &Params::priority, "priority",
                 "Whose stays, the first first; kinds that are not named follow in the order of their list."));
@@ -52,12 +56,14 @@ struct Chain {
         Strokes out;
         for (const Input& input : params.in) add(in.datum<Strokes>(input), out);
         arrange(out);
+        // What will be too short must not cut another line before it goes.
+        out.strokes = join_strokes(std::move(out.strokes), params.gap, params.angle);
+        drop_short(out.strokes);
         std::ranges::stable_sort(out.strokes, {}, [&](const Stroke& s) { return rank(s.kind); });
         out.strokes = without_doubles(std::move(out.strokes), params.dedupe, params.min_length);
         out.strokes = join_strokes(std::move(out.strokes), params.gap, params.angle);
         meet_strokes(out.strokes, params.gap);
-        std::erase_if(out.strokes,
-                      [&](const Stroke& s) { return is_loose(s) && length_of(s) < params.min_length; });
+        drop_short(out.strokes);
         arrange(out);
         return out;
     }
@@ -79,6 +85,14 @@ private:
                                               : params.priority.size() + static_cast<std::size_t>(kind);
     }
 
+    void drop_short(std::vector<Stroke>& strokes) const {
+        std::erase_if(strokes, [&](const Stroke& s) {
+            const bool alone = !s.closed && s.ends[0] == StrokeEnd::kEnd && s.ends[1] == StrokeEnd::kEnd;
+            return is_loose(s) && length_of(s) < (alone ? kAlone : 1) * params.min_length;
+        });
+    }
+
+    static constexpr double kAlone = 1.5;  // what hangs on nothing at both ends is noise more often
     static bool is_loose(const Stroke& s) {
         return s.closed || s.ends[0] == StrokeEnd::kEnd || s.ends[1] == StrokeEnd::kEnd;
     }

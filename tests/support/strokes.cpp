@@ -126,7 +126,8 @@ Stroke random_stroke(Dice& dice, const Rect& window) {
 Json with_node(const std::string& type, Json node, const std::map<std::string, Image>& images,
                Sequences& sequences) {
     register_once<GivenStrokes>();
-    node.set("type", type).set("in", "strokes");
+    node.set("type", type);
+    if (!node.has("in")) node.set("in", "strokes");
     for (const auto& [port, image] : images) {
         node.set(port, "input-" + port);
         sequences["input-" + port] = {image};

@@ -8,6 +8,7 @@
 #include "engine/plan/planner.h"
 #include "tests/support/run.h"
 #include "tests/support/scene.h"
+#include "tests/support/strokes.h"
 
 #include <cmath>
 #include <gmock/gmock.h>
@@ -16,6 +17,7 @@ namespace keyline::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 // A straight stroke with a vertex a pixel.
 Stroke straight(Point from, Point to, StrokeKind kind = StrokeKind::kCrease, uint32_t near = 1) {
@@ -134,7 +136,12 @@ TEST(Chain, LooseEndsGoOnToTheLineAhead) {
     EXPECT_NEAR(ahead_of(23).vertices.back().x, 23, 1e-9);
     EXPECT_EQ(ahead_of(23).ends, (std::array{StrokeEnd::kEnd, StrokeEnd::kJoined}));
     EXPECT_NEAR(ahead_of(-3).vertices.front().x, -3, 1e-9);
-    EXPECT_EQ(ahead_of(25).vertices.back().x, 20) << "too far";
+    EXPECT_NEAR(ahead_of(26).vertices.back().x, 26, 1e-9) << "straight as it is";
+    EXPECT_EQ(ahead_of(29).vertices.back().x, 20) << "too far";
+    std::vector<Stroke> shaky{straight({0, 5}, {30, 5}), straight({35, 0}, {35, 10}, StrokeKind::kOutline)};
+    for (std::size_t i = 0; i < 31; ++i) shaky[0].vertices[i].y += i % 2 == 0 ? 0.3 : -0.3;
+    meet_strokes(shaky, 4);
+    EXPECT_EQ(shaky[0].ends[1], StrokeEnd::kEnd) << "nobody knows where to";
     std::vector<Stroke> beside{straight({0, 0}, {20, 0}), straight({22, 3}, {40, 3})};
     meet_strokes(beside, 4);
     EXPECT_EQ(beside[0].vertices.back().x, 20);
@@ -218,6 +225,25 @@ TEST(Chain, ShortLooseStrokesGo) {
     const Scene scene{.things = {disc("a", {20, 20}, 3, 5)}};
     EXPECT_EQ(chained(scene, {{"min_length", 15}}).strokes.size(), 1U);
     EXPECT_EQ(chained(scene, {{"min_length", 25}}).strokes.size(), 0U);
+}
+
+std::vector<Stroke> chain_of(const std::vector<Stroke>& strokes) {
+    const Json params{{"in", Json::array({"strokes"})}, {"min_length", 8}};
+    return run_on_strokes("chain", params, strokes_in({0, 0, 60, 60}, strokes)).strokes;
+}
+
+TEST(Chain, WhatEndsInNothingOnBothSidesMustBeLonger) {
+    const Stroke wall = straight({20, 0}, {20, 40}, StrokeKind::kOutline);
+    EXPECT_THAT(chain_of({wall, straight({30, 20}, {40, 20})}), SizeIs(1));
+    EXPECT_THAT(chain_of({wall, straight({30, 20}, {43, 20})}), SizeIs(2));
+}
+
+// It is no line at the end, so it is none at the beginning.
+TEST(Chain, WhatIsTooShortCutsNothing) {
+    const std::vector<Stroke> strokes =
+        chain_of({straight({10, 20}, {50, 20}), straight({25, 20.5}, {32, 20.5}, StrokeKind::kFold)});
+    ASSERT_THAT(strokes, SizeIs(1));
+    EXPECT_EQ(length_of(strokes[0]), 40);
 }
 
 TEST(Chain, WantsStrokes) {
