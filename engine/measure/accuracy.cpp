@@ -136,10 +136,11 @@ Strokes unmatched(const Strokes& from, const std::vector<Spot>& spots, const std
 Accuracy accuracy_of(const Strokes& drawing, const Strokes& truth, const AccuracyOptions& options) {
     const Strokes lines = laid_over(truth, drawing.display);
     const std::vector<Spot> drawn = spots_of(drawing), true_spots = spots_in_view(lines, drawing.window);
-    const std::vector<Pair> pairs = pairs_of(drawn, true_spots, options);
-    const std::vector<double> offs = offs_of(drawn, true_spots.size(), pairs);
+    const std::vector<double> offs = offs_of(drawn, true_spots.size(), pairs_of(drawn, true_spots, options));
+    // From the other side: of true lines in finer pieces than the drawn ones most have no drawn one beside
+    // them.
     std::vector<double> found(true_spots.size(), std::numeric_limits<double>::quiet_NaN());
-    for (const Pair& p : pairs) found[p.truth] = 0;
+    for (const Pair& p : pairs_of(true_spots, drawn, options)) found[p.drawn] = 0;
 
     Accuracy out;
     out.drawn = by_kind(drawing, drawn, offs);

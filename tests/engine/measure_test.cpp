@@ -65,6 +65,16 @@ TEST(Accuracy, TellsHowMuchIsDrawnAndHowMuchOfItIsTrue) {
     EXPECT_NEAR(a.missed.strokes[0].vertices.front().x, 70, 1);
 }
 
+TEST(Accuracy, DoesNotDependOnHowManyVerticesLinesHave) {
+    Places close;
+    for (int i = 0; i <= 800; ++i) close.emplace_back(10 + 0.1 * i, 20 + 0.02 * i);
+    const Strokes fine = drawing({stroke(close)}), coarse = drawing({line(10, 20, 90, 36)});
+    for (const auto& [drawn, truth] : {std::pair(fine, coarse), std::pair(coarse, fine)}) {
+        EXPECT_EQ(against(drawn, truth).precision, 1);
+        EXPECT_EQ(against(drawn, truth).recall, 1);
+    }
+}
+
 TEST(Accuracy, IsToldByKind) {
     const Accuracy a = against(
         drawing({line(10, 10, 90, 10), line(10, 30, 90, 30, StrokeKind::kCrease)}),
