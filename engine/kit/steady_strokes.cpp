@@ -36,8 +36,13 @@ Way direction(const std::vector<StrokeVertex>& v, bool closed, std::size_t i) {
 struct Wanted {
     double x = 0, y = 0;
     Way way;
-    std::optional<uint32_t> near;  // anybody's where there is none
+    const Stroke* of = nullptr;  // whose it is; anybody's where there is none
     StrokeKind kind = StrokeKind::kUser;
+
+    // Of two things that touch, one frame says that the one owns their line, and the next the other.
+    bool may_be(const Stroke& s) const {
+        return !of || s.near == of->near || (s.near == of->far && s.far == of->near);
+    }
 };
 
 struct Found {
@@ -66,7 +71,7 @@ public:
         double least = 2 * reach;
         pieces_.near(wanted.x, wanted.y, reach + kBeyond, [&](const PieceIndex::Piece& piece) {
             const Stroke& stroke = pieces_.of(piece);
-            if (wanted.near && stroke.near != *wanted.near) return;
+            if (!wanted.may_be(stroke)) return;
             const auto found = across(pieces_.from(piece), pieces_.to(piece), wanted);
             if (!found || std::fabs(found->off) > reach) return;
             const double cost = std::fabs(found->off) + (stroke.kind == wanted.kind ? 0 : reach);
@@ -148,7 +153,7 @@ private:
 
     Verdict verdict_at(const Stroke& s, std::size_t i, std::size_t among_all) const {
         const StrokeVertex& v = s.vertices[i];
-        const Wanted wanted{v.x, v.y, direction(s.vertices, s.closed, i), s.near, s.kind};
+        const Wanted wanted{v.x, v.y, direction(s.vertices, s.closed, i), &s, s.kind};
         Verdict out{0, own_weight_ * v.width, own_weight_ * v.opacity, 0};
         double having = own_weight_, all = own_weight_;
         for (const Neighbour& b : beside_) {
@@ -245,9 +250,9 @@ private:
     std::optional<StrokeVertex> missing_at(const Stroke& s, std::size_t i, const Neighbour& next) const {
         StrokeVertex v = s.vertices[i];
         const Way way = direction(s.vertices, s.closed, i);
-        Wanted wanted{v.x, v.y, way, {}, s.kind};
+        Wanted wanted{v.x, v.y, way, nullptr, s.kind};
         if (lines_.find(wanted, kNoLine)) return {};
-        wanted.near = s.near;
+        wanted.of = &s;
         const auto found = next.lines.find(wanted, kAcross);
         if (!found) return {};
         v.x -= found->off / 2 * way.y;

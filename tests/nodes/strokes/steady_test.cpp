@@ -97,6 +97,20 @@ TEST(Steady, LinesOfOthersAreOthers) {
     for (const double y : heights(among({level(20.5, 1, 8), level(20), level(20.5, 1, 8)}))) EXPECT_EQ(y, 20);
 }
 
+// Where two things touch, noise says whose their line is.
+TEST(Steady, ALineBetweenTwoMayBeEithersInTurn) {
+    const auto between = [](double y, uint32_t near, uint32_t far) {
+        Strokes s = level(y, 1, near);
+        s.strokes[0].far = far;
+        if (near > far) std::ranges::reverse(s.strokes[0].vertices);
+        return s;
+    };
+    for (const double y : heights(among({between(20.4, 8, 7), between(20, 7, 8), between(20.4, 8, 7)})))
+        EXPECT_NEAR(y, 20.2, 1e-9);
+    for (const double y : heights(among({between(20.4, 8, 9), between(20, 7, 8), between(20.4, 9, 7)})))
+        EXPECT_EQ(y, 20) << "of others";
+}
+
 constexpr int kLast = 5;
 
 // A disc that moves by (1.6, −0.7) a frame; black after the last.  And how its pixels say that they do.
