@@ -20,6 +20,7 @@ constexpr double kMeets = 0.5;        // pixels between ends that are one point
 constexpr double kSharpest = 0;       // cosine of the sharpest turn of a line that goes on at a point
 constexpr double kShare = 3;          // a stroke is so many times longer than a gap beside it
 constexpr double kStraightReach = 2;  // how much farther a line that ends straight goes on to one ahead
+constexpr double kRoot = 1;           // pixels that something thin may end before what it grows out of
 constexpr double kTangent = 3;        // pixels of a stroke that the direction of its end is told from
 
 struct End {
@@ -70,6 +71,13 @@ bool is_straight(const Stroke& s, bool last) {
         sum += off * off;
     }
     return length2 > 0 && sum / length2 < kShake * kShake * kRow;
+}
+
+// How far an end goes on.  The middle of something thin is found up to where that ends.
+double reach_of(const Stroke& s, bool last, double reach) {
+    const double thickness = (last ? s.vertices.back() : s.vertices.front()).thickness;
+    if (thickness > 0) return std::min(reach, thickness + kRoot);
+    return is_straight(s, last) ? kStraightReach * reach : reach;
 }
 
 class Joiner {
@@ -228,9 +236,8 @@ void meet_strokes(std::vector<Stroke>& strokes, double reach) {
         const double length = length_of(stroke);
         for (const int last : {0, 1}) {
             if (stroke.closed || stroke.ends[index(last)] != StrokeEnd::kEnd) continue;
-            const double far = is_straight(stroke, last != 0) ? kStraightReach * reach : reach;
-            const double most = std::min(far, length / kShare);
             const Tip tip = tip_of(stroke, {s, last});
+            const double most = std::min(reach_of(stroke, last != 0, reach), length / kShare);
             const double ahead = all.ahead({tip.x, tip.y, tip.tx, tip.ty, stroke.kind}, most, s);
             if (!(ahead <= most)) continue;
             StrokeVertex v = last ? stroke.vertices.back() : stroke.vertices.front();

@@ -142,6 +142,14 @@ TEST(Chain, LooseEndsGoOnToTheLineAhead) {
     for (std::size_t i = 0; i < 31; ++i) shaky[0].vertices[i].y += i % 2 == 0 ? 0.3 : -0.3;
     meet_strokes(shaky, 4);
     EXPECT_EQ(shaky[0].ends[1], StrokeEnd::kEnd) << "nobody knows where to";
+    std::vector<Stroke> whisker{straight({0, 5}, {30, 5}, StrokeKind::kRidge),
+                                straight({33, 0}, {33, 10}, StrokeKind::kOutline)};
+    for (StrokeVertex& v : whisker[0].vertices) v.thickness = 1;
+    meet_strokes(whisker, 4);
+    EXPECT_EQ(whisker[0].ends[1], StrokeEnd::kEnd) << "it is known where it ends";
+    for (StrokeVertex& v : whisker[1].vertices) v.x = 31.5;
+    meet_strokes(whisker, 4);
+    EXPECT_EQ(whisker[0].ends[1], StrokeEnd::kJoined) << "at what it grows out of";
     std::vector<Stroke> beside{straight({0, 0}, {20, 0}), straight({22, 3}, {40, 3})};
     meet_strokes(beside, 4);
     EXPECT_EQ(beside[0].vertices.back().x, 20);
