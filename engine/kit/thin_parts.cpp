@@ -75,13 +75,19 @@ public:
         const float *here = row(y), *above = row(y - far), *below = row(y + far);
         const float* coverage = ids_.size() > 1 ? ids_[1].at(x0, y) : nullptr;
         const int n = x1 - x0, left = x0 - rect_.x0, right = rect_.x1 - x1;
-        for (int i = 0; i < n; ++i) {
-            const float before = here[std::max(i - far, -left)],
-                        behind = here[std::min(i + far, n - 1 + right)];
+        const auto mark_one = [&](int i, float before, float behind) {
             const uint32_t mixed = coverage && !(coverage[i] >= 1) ? 1 : 0;
             marks[i] = static_cast<uint8_t>(mixed | differ(here[i], above[i]) | differ(here[i], below[i]) |
                                             differ(here[i], before) | differ(here[i], behind));
-        }
+        };
+        const auto mark_at_rim = [&](int from, int to) {
+            for (int i = from; i < to; ++i)
+                mark_one(i, here[std::max(i - far, -left)], here[std::min(i + far, n - 1 + right)]);
+        };
+        const int first = std::clamp(far - left, 0, n), last = std::clamp(n + right - far, first, n);
+        mark_at_rim(0, first);
+        for (int i = first; i < last; ++i) mark_one(i, here[i - far], here[i + far]);
+        mark_at_rim(last, n);
     }
 
 private:
@@ -98,7 +104,8 @@ private:
     int64_t covered(std::size_t r, int x, int y) const {
         if (ids_.size() == 1) return kWhole;
         const float c = *ids_[r + 1].at(x, y);
-        return c > 0 ? std::lround(std::min(c, 1.0F) * static_cast<float>(kWhole)) : 0;
+        // The product is exact, and so is the sum.
+        return c > 0 ? static_cast<int64_t>(double{std::min(c, 1.0F)} * kWhole + 0.5) : 0;
     }
 
     // How much of a pixel an object has; beyond the picture its rim goes on.
@@ -118,9 +125,19 @@ private:
         return parts(id, at.x + across * at.dx, at.y + across * at.dy);
     }
 
+    // Whether an object has so many of the next pixels wholly that it can't be thin here.
+    bool is_wide(uint32_t id, const Across& at, int step) const {
+        if (ids_.size() == 1 || id == 0) return false;
+        for (int i = 1; i <= wide_; ++i) {
+            const int x = at.x + step * i * at.dx, y = at.y + step * i * at.dy;
+            if (!rect_.contains(x, y) || !(*ids_[1].at(x, y) >= 1) || id_at(0, x, y) != id) return false;
+        }
+        return true;
+    }
+
     // One side of a run: up to where there is nothing, or less than on either side.
     bool add_side(uint32_t id, const Across& at, int step, Run& run) const {
-        const int64_t most = static_cast<int64_t>((options_.widest * 1.5 + 1) * kWhole);
+        const auto most = static_cast<int64_t>(most_ * kWhole);
         int64_t before = parts(id, at, 0), highest = before;
         for (int i = step; std::abs(i) <= reach() + kMargin; i += step) {
             const int64_t here = parts(id, at, i), next = parts(id, at, i + step);
@@ -140,6 +157,7 @@ private:
     }
 
     std::optional<Run> run_at(uint32_t id, const Across& at) const {
+        if (is_wide(id, at, 1) || is_wide(id, at, -1)) return {};
         Run run;
         run.sum = parts(id, at, 0);
         if (run.sum <= kNothing || !add_side(id, at, -1, run) || !add_side(id, at, 1, run)) return {};
@@ -243,6 +261,8 @@ private:
     const View* depth_;
     const FindThinParts::Options& options_;
     Rect rect_;
+    const double most_ = options_.widest * 1.5 + 1;  // pixels in a run
+    const int wide_ = std::min(static_cast<int>(std::ceil(most_)), reach() + kMargin);
 };
 
 void put(Outputs out, const ThinPoint& p) {
