@@ -135,21 +135,26 @@ private:
         return true;
     }
 
-    // One side of a run: up to where there is nothing, or less than on either side.
-    bool add_side(uint32_t id, const Across& at, int step, Run& run) const {
-        const auto most = static_cast<int64_t>(most_ * kWhole);
-        int64_t before = parts(id, at, 0), highest = before;
+    // One side of a run: up to where there is nothing, or less than on either side.  `greatest` is what its
+    // pixel `most` has.
+    bool add_side(uint32_t id, const Across& at, int step, int64_t& greatest, Run& run) const {
+        const auto limit = static_cast<int64_t>(most_ * kWhole);
+        int64_t before = parts(id, at, 0), highest = before, next = parts(id, at, step);
         for (int i = step; std::abs(i) <= reach() + kMargin; i += step) {
-            const int64_t here = parts(id, at, i), next = parts(id, at, i + step);
+            const int64_t here = next;
             if (here <= kNothing) return true;
+            next = parts(id, at, i + step);
             const bool valley = here < before && here < next && 2 * here < highest;
             const int64_t has = valley ? here / 2 : here;
             run.sum += has;
             run.moment += has * 2 * i;
             (step < 0 ? run.first : run.last) = i;
-            if (here > parts(id, at, run.most)) run.most = i;
+            if (here > greatest) {
+                greatest = here;
+                run.most = i;
+            }
             if (valley) return true;
-            if (run.sum > most) return false;
+            if (run.sum > limit) return false;
             highest = std::max(highest, here);
             before = here;
         }
@@ -160,7 +165,10 @@ private:
         if (is_wide(id, at, 1) || is_wide(id, at, -1)) return {};
         Run run;
         run.sum = parts(id, at, 0);
-        if (run.sum <= kNothing || !add_side(id, at, -1, run) || !add_side(id, at, 1, run)) return {};
+        int64_t greatest = run.sum;
+        if (run.sum <= kNothing || !add_side(id, at, -1, greatest, run) ||
+            !add_side(id, at, 1, greatest, run))
+            return {};
         return run;
     }
 
