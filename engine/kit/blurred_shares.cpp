@@ -14,8 +14,9 @@ namespace keyline {
 
 namespace {
 
+// The product is exact, and so is the sum.
 uint32_t in_parts(float coverage) {
-    return coverage > 0 ? static_cast<uint32_t>(std::lround(std::min(coverage, 1.0F) * SharedPixels::kWhole))
+    return coverage > 0 ? static_cast<uint32_t>(double{std::min(coverage, 1.0F)} * SharedPixels::kWhole + 0.5)
                         : 0;
 }
 
