@@ -17,6 +17,7 @@ namespace {
 
 constexpr int64_t kWhole = 1 << 16;  // of a pixel, in parts
 constexpr int64_t kNothing = 256;    // parts that are noise, or the hem of a renderer's filter
+constexpr int64_t kLeast = 1024;     // parts that the pixel with a middle has at least
 constexpr int kSteps = 2;            // rows or columns on either side that the direction is told from
 constexpr int kMargin = 2;           // pixels that a thin part may cover on each side beyond its width
 constexpr double kSame = 0.01;       // of two depths that are one, as a share
@@ -59,40 +60,58 @@ public:
         for (std::size_t r = 0; r < ids_.size() && left > kNothing; r += 2) {
             const int64_t has = covered(r, x, y);
             const uint32_t id = id_at(r, x, y);
-            if (id != 0 && has > kNothing) look_at(id);
+            if (id != 0 && has > kLeast) look_at(id);
             if (id != 0) left -= has;
         }
         // Gaps through which one looks into nothing are known as such by the depth only.
-        if (left > kNothing && depth_) look_at(0);
+        if (left > kLeast && depth_) look_at(0);
         return best;
     }
 
-    // Whether the pixel may have one: a pixel that is one object's, and those at some distance, too, has
-    // none. A row at once.
+    // Whether the pixel may have one.  What is one object's, or nobody's, has none unless others have most of
+    // something on both sides of it, not far away.  A row at once.
     void mark(int y, int x0, int x1, uint8_t* marks) const {
-        const int far = reach();
-        const auto row = [&](int v) { return ids_[0].at(x0, std::clamp(v, rect_.y0, rect_.y1 - 1)); };
-        const float *here = row(y), *above = row(y - far), *below = row(y + far);
-        const float* coverage = ids_.size() > 1 ? ids_[1].at(x0, y) : nullptr;
-        const int n = x1 - x0, left = x0 - rect_.x0, right = rect_.x1 - x1;
-        const auto mark_one = [&](int i, float before, float behind) {
-            const uint32_t mixed = coverage && !(coverage[i] >= 1) ? 1 : 0;
-            marks[i] = static_cast<uint8_t>(mixed | differ(here[i], above[i]) | differ(here[i], below[i]) |
-                                            differ(here[i], before) | differ(here[i], behind));
+        const int far = reach(), nearer = std::max(far - 1, 1);
+        const Row here = row(y);
+        const std::array above{row(y - far), row(y - nearer)}, below{row(y + far), row(y + nearer)};
+        const auto other = [](const Row& beside, int x, uint32_t id) {
+            return beside.main_at(x) != id ? 1U : 0U;
         };
-        const auto mark_at_rim = [&](int from, int to) {
-            for (int i = from; i < to; ++i)
-                mark_one(i, here[std::max(i - far, -left)], here[std::min(i + far, n - 1 + right)]);
-        };
-        const int first = std::clamp(far - left, 0, n), last = std::clamp(n + right - far, first, n);
-        mark_at_rim(0, first);
-        for (int i = first; i < last; ++i) mark_one(i, here[i - far], here[i + far]);
-        mark_at_rim(last, n);
+        for (int x = x0; x < x1; ++x) {
+            const uint32_t id = here.main_at(x);
+            const uint32_t across = (other(above[0], x, id) | other(above[1], x, id)) &
+                                    (other(below[0], x, id) | other(below[1], x, id));
+            marks[x - x0] = static_cast<uint8_t>(here.mixed_at(x) | across);
+        }
+        const auto clamped = [&](int x) { return std::clamp(x, rect_.x0, rect_.x1 - 1); };
+        for (int x = x0; x < x1; ++x) {
+            const uint32_t id = here.main_at(x);
+            const uint32_t left = other(here, clamped(x - far), id) | other(here, clamped(x - nearer), id),
+                           right = other(here, clamped(x + far), id) | other(here, clamped(x + nearer), id);
+            marks[x - x0] |= static_cast<uint8_t>(left & right);
+        }
     }
 
 private:
-    static uint32_t differ(float a, float b) {
-        return std::bit_cast<uint32_t>(a) != std::bit_cast<uint32_t>(b) ? 1 : 0;
+    // The first ids of a row, and how much these have.
+    struct Row {
+        const float *ids, *coverage;
+        int x0;
+
+        // Who has half of a pixel, or nobody.
+        uint32_t main_at(int x) const {
+            const auto id = std::bit_cast<uint32_t>(ids[x - x0]);
+            return coverage && !(coverage[x - x0] >= 0.5F) ? 0 : id;
+        }
+        uint32_t mixed_at(int x) const {
+            if (!coverage) return 0;
+            const float c = coverage[x - x0];
+            return c > 0 && !(c >= 1) ? 1 : 0;
+        }
+    };
+    Row row(int y) const {
+        const int v = std::clamp(y, rect_.y0, rect_.y1 - 1);
+        return {ids_[0].row(v), ids_.size() > 1 ? ids_[1].row(v) : nullptr, rect_.x0};
     }
 
     int reach() const { return static_cast<int>(std::ceil(options_.widest)); }
