@@ -8,6 +8,7 @@
 #include "engine/json/json_writer.h"
 #include "engine/kit/strokes_json.h"
 #include "engine/measure/accuracy.h"
+#include "engine/measure/drawn.h"
 #include "engine/measure/form.h"
 #include "engine/measure/motion.h"
 #include "engine/params/file_name.h"
@@ -22,7 +23,7 @@ namespace keyline::cli {
 namespace {
 
 struct MeasureArguments {
-    std::string drawing, truth, extra, missed, frames, vector;
+    std::string drawing, truth, extra, missed, frames, vector, drawn;
     AccuracyOptions accuracy;
     bool json = false;
 };
@@ -30,6 +31,20 @@ struct MeasureArguments {
 struct Measured {
     Form form;
     std::optional<Accuracy> accuracy;  // where there is a truth
+    std::optional<double> unevenness;  // where there is a picture
+};
+
+// A file and the name of one of its layers: FILE:LAYER.
+struct FileLayer {
+    FileName file;
+    std::string layer;
+
+    FileLayer(const std::string& text, const char* usual) : file(text), layer(usual) {
+        const std::size_t colon = text.find_last_of(':');
+        if (colon == std::string::npos || text.find('/', colon) != std::string::npos) return;
+        file = FileName(text.substr(0, colon));
+        layer = text.substr(colon + 1);
+    }
 };
 
 Strokes read_strokes(const std::string& file) { return parse_strokes(read_text_file(file), file); }
@@ -69,7 +84,8 @@ std::string text_of(const Accuracy& accuracy, const MeasureArguments& a) {
                              accuracy.recall, accuracy.f());
 }
 
-std::string text_of(const Form& form) {
+std::string text_of(const Measured& measured) {
+    const Form& form = measured.form;
     std::string out = "  in itself\n";
     const auto line = [&](const char* name, const std::string& text) {
         out += fmt::format("    {:<17}{}\n", name, text);
@@ -84,6 +100,8 @@ std::string text_of(const Form& form) {
     line("width", fmt::format("changes by {:.3f} a pixel at most (95 %), spreads by {:.1f} %",
                               form.width_slope, 100 * form.width_spread));
     line("curves", fmt::format("{}, {:.1f} in 100 pixels", form.curves, form.curves_per_hundred()));
+    if (measured.unevenness)
+        line("drawn width", fmt::format("spreads by {:.1f} %", 100 * *measured.unevenness));
     return out;
 }
 
@@ -115,8 +133,9 @@ std::string json_of(const Measured& measured, const MeasureArguments& a) {
     json.field("pixels", f.length).field("doubles", f.doubles).field("ends", f.ends);
     json.field("looseEnds", f.loose_ends).field("objects", f.objects).field("closed", f.closed);
     json.field("ripple", f.ripple).field("widthSlope", f.width_slope);
-    json.field("widthSpread", f.width_spread).field("curves", f.curves).end_object();
-    return json.end_object().text() + "\n";
+    json.field("widthSpread", f.width_spread).field("curves", f.curves);
+    if (measured.unevenness) json.field("drawnWidthSpread", *measured.unevenness);
+    return json.end_object().end_object().text() + "\n";
 }
 
 void write(const std::string& file, const Strokes& strokes) {
@@ -127,7 +146,11 @@ int measure_one(const MeasureArguments& a) {
     if (a.truth.empty() && !(a.extra.empty() && a.missed.empty()))
         fail(ErrorKind::kGraph, "what is extra or missed shows against a truth", "give its file too");
     const Strokes drawing = read_strokes(a.drawing);
-    Measured measured{form_of(drawing), {}};
+    Measured measured{form_of(drawing), {}, {}};
+    if (!a.drawn.empty()) {
+        const FileLayer drawn(a.drawn, "");
+        measured.unevenness = unevenness_of(drawing, read_drawn_lines(drawn.file.at(0), drawn.layer));
+    }
     if (!a.truth.empty()) measured.accuracy = accuracy_of(drawing, read_strokes(a.truth), a.accuracy);
     if (measured.accuracy) {
         write(a.extra, measured.accuracy->extra);
@@ -136,11 +159,18 @@ int measure_one(const MeasureArguments& a) {
     print_result(a.json ? json_of(measured, a)
                         : escaped(a.drawing) + "\n" +
                               (measured.accuracy ? text_of(*measured.accuracy, a) : std::string()) +
-                              text_of(measured.form));
+                              text_of(measured));
     return 0;
 }
 
-std::string text_of(const Steadiness& s, const MeasureArguments& a) {
+// From frame to frame.
+struct Moving {
+    Steadiness steadiness;
+    std::optional<double> flicker;  // where there are pictures
+};
+
+std::string text_of(const Moving& moving, const MeasureArguments& a) {
+    const Steadiness& s = moving.steadiness;
     std::string out =
         fmt::format("{}, frames {}, as {} has them move\n", escaped(a.drawing), a.frames, escaped(a.vector));
     const auto line = [&](const char* name, const std::string& text) {
@@ -153,16 +183,20 @@ std::string text_of(const Steadiness& s, const MeasureArguments& a) {
     line("lost ink", fmt::format("{:.2f} %", 100 * s.lost_ink));
     line("drift", fmt::format("{:.3f} pixels from the first frame to the last, of {:.0f} that stay in view",
                               s.drift, s.drifted));
+    if (moving.flicker) line("flicker", fmt::format("{:.1f} % of the drawn pixels", 100 * *moving.flicker));
     return out;
 }
 
-std::string json_of(const Steadiness& s, const MeasureArguments& a) {
+std::string json_of(const Moving& moving, const MeasureArguments& a) {
+    const Steadiness& s = moving.steadiness;
     JsonWriter json(JsonWriter::Style::kIndented);
     json.begin_object().field("file", a.drawing).field("frames", a.frames).field("vector", a.vector);
     json.field("pairs", s.pairs).field("pixels", s.length).field("swim", s.swim.robust);
     json.field("swimRms", s.swim.rms).field("swimMost", s.swim.most).field("pops", s.pops);
     json.field("flecks", s.flecks).field("lostInk", s.lost_ink).field("drift", s.drift);
-    return json.field("driftPixels", s.drifted).end_object().text() + "\n";
+    json.field("driftPixels", s.drifted);
+    if (moving.flicker) json.field("flicker", *moving.flicker);
+    return json.end_object().text() + "\n";
 }
 
 int measure_frames(const MeasureArguments& a) {
@@ -172,18 +206,23 @@ int measure_frames(const MeasureArguments& a) {
     if (!a.truth.empty())
         fail(ErrorKind::kGraph, "a truth is for one frame",
              "leave out '--frames' and '--vector', or the truth");
-    const std::size_t colon = a.vector.find_last_of(':');
-    const bool has_layer = colon != std::string::npos && a.vector.find('/', colon) == std::string::npos;
-    const FileName drawings(a.drawing), passes(has_layer ? a.vector.substr(0, colon) : a.vector);
-    const std::string layer = has_layer ? a.vector.substr(colon + 1) : "Vector";
+    const FileName drawings(a.drawing);
+    const FileLayer passes(a.vector, "Vector");
     std::vector<MovingFrame> frames;
-    for (const int frame : parse_frames(a.frames))
-        frames.push_back({read_strokes(drawings.at(frame).string()), read_motion(passes.at(frame), layer)});
+    std::vector<DrawnFrame> pictures;
+    for (const int frame : parse_frames(a.frames)) {
+        frames.push_back(
+            {read_strokes(drawings.at(frame).string()), read_motion(passes.file.at(frame), passes.layer)});
+        if (a.drawn.empty()) continue;
+        const FileLayer drawn(a.drawn, "");
+        pictures.push_back({read_drawn_lines(drawn.file.at(frame), drawn.layer), frames.back().motion});
+    }
     if (frames.size() < 2)
         fail(ErrorKind::kGraph, "one frame has no other to be held against",
              "give two and more to '--frames'");
-    const Steadiness steadiness = steadiness_of(frames, a.accuracy);
-    print_result(a.json ? json_of(steadiness, a) : text_of(steadiness, a));
+    Moving moving{steadiness_of(frames, a.accuracy), {}};
+    if (!pictures.empty()) moving.flicker = flicker_of(pictures);
+    print_result(a.json ? json_of(moving, a) : text_of(moving, a));
     return 0;
 }
 
@@ -205,6 +244,9 @@ void add_measure(const Command& program) {
                    "Hold these frames against each other, as 1-24; STROKES names them by #");
     command.option("--vector", a->vector, "FILE[:LAYER]",
                    "How pixels move: images with a layer of X Y Z W, as Cycles' Vector");
+    command.option("--drawn", a->drawn, "FILE[:LAYER]",
+                   "The lines as pixels, the A of an image or its only channel: how even they are, and how "
+                   "much they flicker");
     command.option("--extra", a->extra, "FILE", "Write what is drawn and not true, as strokes");
     command.option("--missed", a->missed, "FILE", "Write what is true and not drawn, as strokes");
     command.flag("--json", a->json, "As JSON");

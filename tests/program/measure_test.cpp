@@ -103,6 +103,29 @@ TEST_F(MeasureFrames, TellsWhatIsSteady) {
     EXPECT_NEAR(Json::parse(json.out)["swimRms"], 0.25, 1e-6);
 }
 
+TEST_F(MeasureFrames, HoldsPicturesOfThemAgainstEachOther) {
+    graph(R"("in": { "type": "strokes_read", "file": "line.#.json" },
+             "ink": { "type": "draw", "in": "in" },
+             "out": { "type": "write", "in": "ink", "file": "ink.#.exr", "depth": "float" })");
+    ASSERT_EQ(keyline({"render", "graph.json", "--frames", "1-2"}).status, 0);
+    const Outcome one = keyline({"measure", "line.1.json", "--drawn", "ink.1.exr"});
+    EXPECT_THAT(one.out, HasSubstr("drawn width      spreads by 0.0 %")) << one.err;
+    EXPECT_NEAR(Json::parse(keyline({"measure", "line.1.json", "--drawn", "ink.1.exr", "--json"})
+                                .out)["form"]["drawnWidthSpread"],
+                0, 1e-4);
+    // By a quarter of a pixel down, of 2: a quarter goes above, a quarter comes below.
+    const std::vector<std::string> two{"measure",  "line.#.json",  "--frames", "1-2",
+                                       "--vector", "motion.#.exr", "--drawn",  "ink.#.exr"};
+    const Outcome run = keyline(two);
+    EXPECT_THAT(run.out, HasSubstr("flicker          22.")) << run.out << run.err;
+    write("rgb.json", R"({ "keyline": 1, "nodes": {
+        "in": { "type": "constant", "color": [1, 1, 1], "size": [9, 9] },
+        "out": { "type": "write", "in": "in", "channels": ["R", "G", "B"], "file": "rgb.exr" } } })");
+    ASSERT_EQ(keyline({"render", "rgb.json"}).status, 0);
+    EXPECT_THAT(keyline({"measure", "line.1.json", "--drawn", "rgb.exr"}).err,
+                HasSubstr("rgb.exr: it has no channel A, and not just one channel; write what 'draw' gives"));
+}
+
 TEST_F(MeasureFrames, FaultsAreTold) {
     const auto told = [&](std::vector<std::string> more) {
         more.insert(more.begin(), {"measure", "line.#.json"});

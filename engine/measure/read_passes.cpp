@@ -3,6 +3,7 @@
 #include "engine/base/channels.h"
 #include "engine/base/error.h"
 #include "engine/io/image_source.h"
+#include "engine/measure/drawn.h"
 #include "engine/measure/motion.h"
 #include "engine/simd/half.h"
 
@@ -68,6 +69,18 @@ MotionPass read_motion(const std::filesystem::path& file, const std::string& lay
     const std::optional<ChannelPlace> depth = find_channel(header, "Depth", "Z");
     if (depth && header.groups[depth->group].window == out.window) out.depth = read_channel(*image, *depth);
     return out;
+}
+
+DrawnLines read_drawn_lines(const std::filesystem::path& file, const std::string& layer) {
+    const std::unique_ptr<ImageSource> image = open_image(file);
+    const ImageHeader& header = image->header();
+    std::optional<ChannelPlace> place = find_channel(header, layer, "A");
+    if (!place && header.groups.size() == 1 && header.groups[0].channels.size() == 1) place = ChannelPlace{};
+    if (!place)
+        fail(ErrorKind::kInput,
+             fmt::format("{}: it has no channel A, and not just one channel", file.string()),
+             "write what 'draw' gives, or a mask; name a layer as FILE:LAYER");
+    return {header.groups[place->group].window, read_channel(*image, *place)};
 }
 
 }  // namespace keyline
