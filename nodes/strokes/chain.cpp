@@ -88,9 +88,13 @@ private:
     void drop_short(std::vector<Stroke>& strokes) const {
         std::erase_if(strokes, [&](const Stroke& s) {
             const bool alone = !s.closed && s.ends[0] == StrokeEnd::kEnd && s.ends[1] == StrokeEnd::kEnd;
-            return is_loose(s) && length_of(s) < (alone ? kAlone : 1) * params.min_length;
+            return is_loose(s) && !stands_for_outlines(s) &&
+                   length_of(s) < (alone ? kAlone : 1) * params.min_length;
         });
     }
+
+    // The middle of something thin, which has no others any more.
+    static bool stands_for_outlines(const Stroke& s) { return s.vertices.front().thickness > 0; }
 
     static constexpr double kAlone = 1.5;  // what hangs on nothing at both ends is noise more often
     static bool is_loose(const Stroke& s) {

@@ -246,6 +246,13 @@ TEST(Chain, WhatEndsInNothingOnBothSidesMustBeLonger) {
     EXPECT_THAT(chain_of({wall, straight({30, 20}, {43, 20})}), SizeIs(2));
 }
 
+TEST(Chain, MiddlesOfThinThingsStay) {
+    Stroke hair = straight({30, 20}, {35, 20}, StrokeKind::kRidge);
+    EXPECT_THAT(chain_of({hair}), SizeIs(0));
+    for (StrokeVertex& v : hair.vertices) v.thickness = 1;
+    EXPECT_THAT(chain_of({hair}), SizeIs(1)) << "its outlines have gone already";
+}
+
 // It is no line at the end, so it is none at the beginning.
 TEST(Chain, WhatIsTooShortCutsNothing) {
     const std::vector<Stroke> strokes =
