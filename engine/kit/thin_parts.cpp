@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 
 namespace keyline {
@@ -44,8 +45,13 @@ struct Across {
 
 class Parts {
 public:
-    Parts(std::span<const View> ids, std::span<const View> depth, const FindThinParts::Options& options)
-        : ids_(ids), depth_(depth.empty() ? nullptr : depth.data()), options_(options), rect_(ids[0].rect) {}
+    Parts(std::span<const View> ids, std::span<const View> depth, const FindThinParts::Options& options,
+          Scratch& scratch)
+        : ids_(ids), depth_(depth.empty() ? nullptr : depth.data()), options_(options), rect_(ids[0].rect) {
+        const auto mains = scratch.take<uint32_t>(static_cast<std::size_t>(rect_.area()));
+        find_mains(mains);
+        mains_ = mains;
+    }
 
     // Whose middle the pixel holds, where there is one.
     std::optional<ThinPoint> at(int x, int y) const {
@@ -71,47 +77,53 @@ public:
     // Whether the pixel may have one.  What is one object's, or nobody's, has none unless others have most of
     // something on both sides of it, not far away.  A row at once.
     void mark(int y, int x0, int x1, uint8_t* marks) const {
-        const int far = reach(), nearer = std::max(far - 1, 1);
-        const Row here = row(y);
-        const std::array above{row(y - far), row(y - nearer)}, below{row(y + far), row(y + nearer)};
-        const auto other = [](const Row& beside, int x, uint32_t id) {
-            return beside.main_at(x) != id ? 1U : 0U;
+        const int far = reach(), nearer = std::max(far - 1, 1), n = x1 - x0;
+        const auto row = [&](int v) { return main_at(x0, std::clamp(v, rect_.y0, rect_.y1 - 1)); };
+        const uint32_t *here = row(y), *above = row(y - far), *over = row(y - nearer), *below = row(y + far),
+                       *under = row(y + nearer);
+        for (int i = 0; i < n; ++i) {
+            const uint32_t id = here[i];
+            marks[i] = static_cast<uint8_t>((differ(above[i], id) | differ(over[i], id)) &
+                                            (differ(below[i], id) | differ(under[i], id)));
+        }
+        const auto mark_across = [&](int i, const auto& at) {
+            const uint32_t id = here[i];
+            const uint32_t left = differ(at(i - far), id) | differ(at(i - nearer), id),
+                           right = differ(at(i + far), id) | differ(at(i + nearer), id);
+            marks[i] |= static_cast<uint8_t>(left & right);
         };
-        for (int x = x0; x < x1; ++x) {
-            const uint32_t id = here.main_at(x);
-            const uint32_t across = (other(above[0], x, id) | other(above[1], x, id)) &
-                                    (other(below[0], x, id) | other(below[1], x, id));
-            marks[x - x0] = static_cast<uint8_t>(here.mixed_at(x) | across);
-        }
-        const auto clamped = [&](int x) { return std::clamp(x, rect_.x0, rect_.x1 - 1); };
-        for (int x = x0; x < x1; ++x) {
-            const uint32_t id = here.main_at(x);
-            const uint32_t left = other(here, clamped(x - far), id) | other(here, clamped(x - nearer), id),
-                           right = other(here, clamped(x + far), id) | other(here, clamped(x + nearer), id);
-            marks[x - x0] |= static_cast<uint8_t>(left & right);
-        }
+        const int left = x0 - rect_.x0, right = rect_.x1 - x1;
+        const int first = std::clamp(far - left, 0, n), last = std::clamp(n + right - far, first, n);
+        const auto in_picture = [&](int i) { return here[std::clamp(i, -left, n - 1 + right)]; };
+        for (int i = 0; i < first; ++i) mark_across(i, in_picture);
+        for (int i = first; i < last; ++i) mark_across(i, [&](int k) { return here[k]; });
+        for (int i = last; i < n; ++i) mark_across(i, in_picture);
+        if (ids_.size() > 1) mark_mixed(ids_[1].at(x0, y), n, marks);
     }
 
 private:
-    // The first ids of a row, and how much these have.
-    struct Row {
-        const float *ids, *coverage;
-        int x0;
+    static uint32_t differ(uint32_t a, uint32_t b) { return a != b ? 1 : 0; }
 
-        // Who has half of a pixel, or nobody.
-        uint32_t main_at(int x) const {
-            const auto id = std::bit_cast<uint32_t>(ids[x - x0]);
-            return coverage && !(coverage[x - x0] >= 0.5F) ? 0 : id;
+    static void mark_mixed(const float* coverage, int n, uint8_t* marks) {
+        for (int i = 0; i < n; ++i) {
+            const uint32_t some = coverage[i] > 0 ? 1 : 0, whole = coverage[i] >= 1 ? 1 : 0;
+            marks[i] |= static_cast<uint8_t>(some & ~whole);
         }
-        uint32_t mixed_at(int x) const {
-            if (!coverage) return 0;
-            const float c = coverage[x - x0];
-            return c > 0 && !(c >= 1) ? 1 : 0;
+    }
+
+    // Who has half of each pixel, or nobody.
+    void find_mains(std::span<uint32_t> mains) const {
+        const int n = rect_.width();
+        for (int y = rect_.y0; y < rect_.y1; ++y) {
+            uint32_t* to = &mains[index(y - rect_.y0) * index(n)];
+            std::memcpy(to, ids_[0].row(y), index(n) * sizeof(float));
+            if (ids_.size() == 1) continue;
+            const float* coverage = ids_[1].row(y);
+            for (int i = 0; i < n; ++i) to[i] = coverage[i] >= 0.5F ? to[i] : 0;
         }
-    };
-    Row row(int y) const {
-        const int v = std::clamp(y, rect_.y0, rect_.y1 - 1);
-        return {ids_[0].row(v), ids_.size() > 1 ? ids_[1].row(v) : nullptr, rect_.x0};
+    }
+    const uint32_t* main_at(int x, int y) const {
+        return &mains_[index(y - rect_.y0) * index(rect_.width()) + index(x - rect_.x0)];
     }
 
     int reach() const { return static_cast<int>(std::ceil(options_.widest)); }
@@ -288,6 +300,7 @@ private:
     const View* depth_;
     const FindThinParts::Options& options_;
     Rect rect_;
+    std::span<const uint32_t> mains_;
     const double most_ = options_.widest * 1.5 + 1;  // pixels in a run
     const int wide_ = std::min(static_cast<int>(std::ceil(most_)), reach() + kMargin);
 };
@@ -318,12 +331,12 @@ Halo FindThinParts::halo() const {
 
 // Where there is none, only the output that says so is written.
 void FindThinParts::compute(const Inputs& in, Outputs out, Scratch& scratch) const {
-    const Parts parts(in.slot(0), in.slot(1), options_);
     const Rect& rect = out[0].rect;
     if (options_.widest <= 0) {
         for (int y = rect.y0; y < rect.y1; ++y) std::fill_n(out[0].row(y), rect.width(), 0.0F);
         return;
     }
+    const Parts parts(in.slot(0), in.slot(1), options_, scratch);
     const auto marks = scratch.take<uint8_t>(index(rect.width()));
     for (int y = rect.y0; y < rect.y1; ++y) {
         std::fill_n(out[0].row(y), rect.width(), 0.0F);
