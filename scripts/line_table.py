@@ -135,7 +135,8 @@ def table(title, rows, wanted):
 PLACE, TRUE, DRAWN = "off the true line, robust / rms", "of what is drawn is true", "of the true lines are drawn"
 CLOSED, DOUBLES, LOOSE = "closed outlines", "doubles", "loose ends in 1000 pixels"
 RIPPLE, EVEN, CURVES = "ripple, in pixels", "drawn width spreads by", "curves in 100 pixels"
-SWIM, DRIFT, POPS, LOST = "swim, in pixels", "drift, in pixels", "pops", "ink lost from frame to frame"
+SWIM, DRIFT, POPS, LOST = "swim, in pixels", "drift from frame to frame, in pixels", "pops", "ink lost from frame to frame"
+SHOT = "drift from the first frame to the last"
 FLICKER = "pixels that flicker"
 WANTED = {
     CLOSED: "98 %",
@@ -177,6 +178,7 @@ def motion_rows(of):
     return [
         (SWIM, [number(m["swim"], 3) for m in of]),
         (DRIFT, [number(m["drift"], 3) for m in of]),
+        (SHOT, [number(m["shotDrift"], 3) for m in of]),
         (POPS, [percent(m["pops"], 2) for m in of]),
         (LOST, [percent(m["lostInk"], 1) for m in of]),
         (FLICKER, [percent(m["flicker"]) for m in of]),

@@ -181,8 +181,9 @@ std::string text_of(const Moving& moving, const MeasureArguments& a) {
                              s.swim.most));
     line("pops", fmt::format("{:.2f} %, flecks {:.2f} %", 100 * s.pops, 100 * s.flecks));
     line("lost ink", fmt::format("{:.2f} %", 100 * s.lost_ink));
-    line("drift", fmt::format("{:.3f} pixels from the first frame to the last, of {:.0f} that stay in view",
-                              s.drift, s.drifted));
+    line("drift", fmt::format("{:.3f} pixels from frame to frame, {:.3f} from the first to the last, of "
+                              "{:.0f} that stay in view",
+                              s.drift, s.shot_drift, s.drifted));
     if (moving.flicker) line("flicker", fmt::format("{:.1f} % of the drawn pixels", 100 * *moving.flicker));
     return out;
 }
@@ -194,6 +195,7 @@ std::string json_of(const Moving& moving, const MeasureArguments& a) {
     json.field("pairs", s.pairs).field("pixels", s.length).field("swim", s.swim.robust);
     json.field("swimRms", s.swim.rms).field("swimMost", s.swim.most).field("pops", s.pops);
     json.field("flecks", s.flecks).field("lostInk", s.lost_ink).field("drift", s.drift);
+    json.field("shotDrift", s.shot_drift);
     json.field("driftPixels", s.drifted);
     if (moving.flicker) json.field("flicker", *moving.flicker);
     return json.end_object().text() + "\n";

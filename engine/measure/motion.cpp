@@ -127,6 +127,9 @@ public:
             out.flecks = flecks_ / length_;
         }
         if (ink_ > 0) out.lost_ink = lost_ink_ / ink_;
+        double sum = 0;
+        for (const double off : offs_) sum += std::fabs(off);
+        if (!offs_.empty()) out.drift = sum / static_cast<double>(offs_.size());
     }
 
 private:
@@ -153,7 +156,7 @@ void add_drift(const std::vector<MovingFrame>& frames, const std::vector<std::ve
             out.drifted += spot.length;
         }
     }
-    if (out.drifted > 0) out.drift = sum / out.drifted;
+    if (out.drifted > 0) out.shot_drift = sum / out.drifted;
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ struct Steadiness {
     double pops = 0;        // the share that has no line there, in runs of 4 pixels and more
     double flecks = 0;      // and in shorter ones
     double lost_ink = 0;    // both, weighed by the line's width
-    double drift = 0;       // how far off lines of the first frame are in the last, on average, in pixels
+    double drift = 0;       // what is found is off by so much on average, in pixels
+    double shot_drift = 0;  // and lines of the first frame in the last
     double drifted = 0;     // the length that could be followed so far
 };
 

@@ -95,7 +95,7 @@ TEST_F(MeasureFrames, TellsWhatIsSteady) {
     swim             0.371 pixels, rms 0.250, at most 0.250 (95 %)
     pops             0.00 %, flecks 0.00 %
     lost ink         0.00 %
-    drift            0.250 pixels from the first frame to the last, of 60 that stay in view
+    drift            0.250 pixels from frame to frame, 0.250 from the first to the last, of 60 that stay in view
 )");
     const Outcome json =
         keyline({"measure", "line.#.json", "--frames", "1-2", "--vector", "motion.#.exr", "--json"});
