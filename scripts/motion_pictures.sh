@@ -20,11 +20,7 @@ keyline() {
 
 # HAND: all frames, to $scratch/HAND.####.png, with lines that hold together
 render() {
-  sed -e "s#\"groups/#\"$PWD/graphs/groups/#" -e 's#"file": "[^"]*plate[^"]*"#&, "missing": "black"#' \
-    -e 's#"in": "lines"#"in": "still"#' \
-    -e '/"lines": *{/a "still": { "type": "steady", "in": "lines", "vector": "render:Vector" },' \
-    "graphs/$1.json" > "$scratch/$1.json"
-  keyline "$scratch/$1.json" --frames 1-24 --var plate="$sequence" --var out="$scratch/$1.####.png"
+  keyline "graphs/$1.json" --frames 1-24 --var around=2 --var plate="$sequence" --var out="$scratch/$1.####.png"
 }
 
 # HAND: six frames, two thirds as large, three beside each other
