@@ -56,11 +56,12 @@ Strokes TakeAnchors::derive(const Inputs& in) const {
 
 Stream with_anchors(Builder& builder, const Stream& strokes, const Stream& places) {
     std::vector<Stream> links{strokes};
+    const Stream beside = add_operation(builder, FindPlacesBeside{}, {strokes});
     for (const StreamChannel& axis : places.channels) {
         Stream image = places;
         image.channels.clear();
         image.set("Y", axis);
-        links.push_back(add_operation(builder, SampleBeside{}, {image, strokes}));
+        links.push_back(add_operation(builder, SampleBeside{}, {image, beside}));
     }
     const bool flat = links.size() < 4;
     if (flat) links.push_back(add_operation(builder, NoSamples{}, {}));

@@ -6,6 +6,7 @@
 #include "engine/kit/strokes.h"
 #include "engine/node/node_adaptor.h"
 
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -30,19 +31,48 @@ struct StrokeSamples {
     friend bool operator==(const StrokeSamples&, const StrokeSamples&) = default;
 };
 
-// The operation that makes them of an image.
-struct SampleBeside {
+// The pixels beside strokes, from top to bottom and from left to right, so that each tile of an image finds
+// its own.
+struct PlacesBeside {
+    static constexpr const char* kind = "places beside strokes";
+
+    struct Place {
+        int y = 0, x = 0;
+        uint32_t stroke = 0, vertex = 0;
+        friend auto operator<=>(const Place&, const Place&) = default;
+    };
+    std::vector<Place> places;
+    std::size_t bytes() const { return places.size() * sizeof(Place); }
+    friend bool operator==(const PlacesBeside&, const PlacesBeside&) = default;
+};
+
+struct FindPlacesBeside {
     struct Params {
-        Input image, strokes;
-        static constexpr auto fields = declare(input(&Params::image, "image", "", matte()),
-                                               input(&Params::strokes, "strokes", "", data<Strokes>()));
+        Input strokes;
+        static constexpr auto fields = declare(input(&Params::strokes, "strokes", "", data<Strokes>()));
     };
     enum Side { kNear, kFar };
+
+    PlacesBeside derive(const Inputs& in) const;
+    static std::size_t datum_bytes() {
+        return kUsualStrokes / sizeof(StrokeVertex) * sizeof(PlacesBeside::Place);
+    }
+
+    Side side = kNear;
+};
+
+// The operation that makes samples of an image.
+struct SampleBeside {
+    struct Params {
+        Input image, places;
+        static constexpr auto fields = declare(input(&Params::image, "image", "", matte()),
+                                               input(&Params::places, "places", "", data<PlacesBeside>()));
+    };
     using State = std::vector<StrokeSample>;
     using Partial = std::vector<StrokeSample>;
 
     static State start(const Rect&) { return {}; }
-    Partial map(const State&, const Inputs& in, const Rect& block, Scratch&) const;
+    static Partial map(const State&, const Inputs& in, const Rect& block, Scratch&);
     static void fold(State& state, Partial&& found) { state.insert(state.end(), found.begin(), found.end()); }
     static StrokeSamples finish(State state);
 
@@ -50,8 +80,6 @@ struct SampleBeside {
     static std::size_t state_bytes(const Rect&) { return kUsual; }
     static std::size_t partial_bytes(const Rect&) { return kUsual; }
     static std::size_t datum_bytes(const Rect&) { return kUsual; }
-
-    Side side = kNear;
 };
 
 // Gives samples back to those who go through all strokes and their vertices in order.

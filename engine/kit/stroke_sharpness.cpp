@@ -68,13 +68,15 @@ Strokes TakeSharpness::derive(const Inputs& in) {
 Stream with_sharpness(Builder& builder, const Stream& strokes, const Stream& normals) {
     const std::vector<ValueRef> axes = take_channels(builder, normals, named("X", "Y", "Z"));
     std::vector<Stream> links{strokes};
-    for (const SampleBeside::Side side : {SampleBeside::kNear, SampleBeside::kFar})
+    for (const FindPlacesBeside::Side side : {FindPlacesBeside::kNear, FindPlacesBeside::kFar}) {
+        const Stream beside = add_operation(builder, FindPlacesBeside{side}, {strokes});
         for (const ValueRef& axis : axes) {
             Stream image = normals;
             image.channels.clear();
             image.set("Y", axis);
-            links.push_back(add_operation(builder, SampleBeside{side}, {image, strokes}));
+            links.push_back(add_operation(builder, SampleBeside{}, {image, beside}));
         }
+    }
     return add_operation(builder, TakeSharpness{}, links);
 }
 

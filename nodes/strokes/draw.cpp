@@ -240,11 +240,12 @@ private:
         }
         const Stream image = builder.input(*params.tint);
         const std::vector<ValueRef> values = take_channels(builder, image, colour_without_alpha());
+        const Stream beside = add_operation(builder, FindPlacesBeside{}, {strokes});
         for (std::size_t c = 0; c < out.size(); ++c) {
             Stream channel = image;
             channel.channels.clear();
             channel.set("Y", values[c]);
-            out[c] = add_operation(builder, SampleBeside{}, {channel, strokes});
+            out[c] = add_operation(builder, SampleBeside{}, {channel, beside});
         }
         return out;
     }

@@ -247,9 +247,10 @@ struct Weight {
     Stream expand(Builder& builder) const {
         Stream in = builder.input(params.in);
         if (params.normal) in = with_sharpness(builder, in, builder.input(*params.normal));
-        const Stream samples = params.map
-                                   ? add_operation(builder, SampleBeside{}, {builder.input(*params.map), in})
-                                   : add_operation(builder, NoSamples{}, {});
+        const Stream samples = params.map ? add_operation(builder, SampleBeside{},
+                                                          {builder.input(*params.map),
+                                                           add_operation(builder, FindPlacesBeside{}, {in})})
+                                          : add_operation(builder, NoSamples{}, {});
         return add_operation(builder, Weigh(params), {in, samples});
     }
 
