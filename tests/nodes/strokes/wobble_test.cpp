@@ -81,8 +81,9 @@ Stroke without_anchors(Stroke s) {
     return s;
 }
 
-Stroke wobbled_on(const Image& places, const Stroke& s, const Json& params) {
-    return run_on_strokes("wobble", params, strokes_in(kFrame, {s}), {}, {{"surface", places}}).strokes.at(0);
+Stroke wobbled_on(const Image& places, const Stroke& s, const Json& params, int frame = 1) {
+    return run_on_strokes("wobble", params, strokes_in(kFrame, {s}), {.frame = frame}, {{"surface", places}})
+        .strokes.at(0);
 }
 
 TEST(Wobble, StaysWithThePassThatTellsPlaces) {
@@ -94,6 +95,15 @@ TEST(Wobble, StaysWithThePassThatTellsPlaces) {
     EXPECT_EQ(moved.vertices[20].anchor, (std::array{7.5, 13.0, 1.0})) << "beside it, on what it belongs to";
     EXPECT_EQ(shifts(moved), shifts(wobbled_on(surface(0.25, 37), there, params)));
     EXPECT_NE(shifts(moved), shifts(wobbled_on(surface(0.25), there, params)));
+}
+
+TEST(Wobble, WithinAHoldADrawingGoesWithItsSurface) {
+    const Json params{{"amount", 5}, {"hold", 2}};
+    const auto at = [&](int frame, int moved) {
+        return shifts(wobbled_on(surface(0.25, moved), without_anchors(line(moved)), params, frame));
+    };
+    EXPECT_EQ(at(4, 0), at(5, 23)) << "to the bit, though it moved";
+    EXPECT_NE(at(5, 23), at(6, 23)) << "and then it is drawn anew";
 }
 
 // How often a line goes from one side to the other.
