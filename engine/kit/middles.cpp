@@ -64,27 +64,10 @@ private:
     }
 
     void add(const PointChain& chain) {
-        const std::vector<double> widths = widths_along(chain);
+        const std::vector<double> widths = strengths_along(chain, kAround);
         const bool whole = std::ranges::all_of(widths, [&](double w) { return w < options_.widest; });
         if (whole) return add_run(chain, widths, {0, chain.points.size()}, chain.closed);
         for (const Run& run : thin_runs(widths)) add_run(chain, widths, run, false);
-    }
-
-    static std::vector<double> widths_along(const PointChain& chain) {
-        std::vector<double> out;
-        const int n = static_cast<int>(chain.points.size());
-        for (int i = 0; i < n; ++i) {
-            double sum = 0;
-            int count = 0;
-            for (int k = -kAround; k <= kAround; ++k) {
-                const int j = chain.closed ? ((i + k) % n + n) % n : i + k;
-                if (j < 0 || j >= n) continue;
-                sum += double{chain.points[index(j)].strength};
-                ++count;
-            }
-            out.push_back(sum / count);
-        }
-        return out;
     }
 
     // Those that hold something thinner than the limit go on up to a little more, so that a width near it

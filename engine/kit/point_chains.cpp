@@ -3,6 +3,7 @@
 #include "engine/kit/point_chains.h"
 
 #include "engine/base/index.h"
+#include "engine/kit/stroke_way.h"
 
 #include <algorithm>
 #include <array>
@@ -137,6 +138,14 @@ std::vector<PointChain> link_points(std::vector<LinePoint> points, bool directed
                                     [high](const LinePoint& p) { return double{p.strength} >= high; });
     });
     return chains;
+}
+
+std::vector<double> strengths_along(const PointChain& chain, std::ptrdiff_t around) {
+    std::vector<double> strengths, out;
+    for (const LinePoint& p : chain.points) strengths.push_back(double{p.strength});
+    for (std::size_t i = 0; i < strengths.size(); ++i)
+        out.push_back(mean_along(strengths, chain.closed, i, around, false));
+    return out;
 }
 
 }  // namespace keyline

@@ -5,6 +5,7 @@
 #include "engine/base/api.h"
 #include "engine/kit/line_points.h"
 
+#include <cstddef>
 #include <vector>
 
 // Points that belong to one line, in order.
@@ -21,5 +22,8 @@ struct PointChain {
 // of both run on in one direction.  Chains that reach `high` somewhere are kept.  The points may be in any
 // order.
 std::vector<PointChain> link_points(std::vector<LinePoint> points, bool directed, double high);
+
+// Of each point the mean strength of itself and of so many points on either side.
+std::vector<double> strengths_along(const PointChain& chain, std::ptrdiff_t around);
 
 }  // namespace keyline

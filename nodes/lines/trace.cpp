@@ -162,19 +162,11 @@ private:
     // How sure the line is along its way, and so how much of it there is.
     void grade(const PointChain& chain, Stroke& stroke) const {
         constexpr int kAround = 3;
-        const int n = static_cast<int>(chain.points.size());
-        for (int i = 0; i < n; ++i) {
-            double sum = 0;
-            int count = 0;
-            for (int k = -kAround; k <= kAround; ++k) {
-                const int j = chain.closed ? ((i + k) % n + n) % n : i + k;
-                if (j < 0 || j >= n) continue;
-                sum += double{chain.points[static_cast<std::size_t>(j)].strength};
-                ++count;
-            }
-            StrokeVertex& v = stroke.vertices[static_cast<std::size_t>(i)];
+        const std::vector<double> strengths = strengths_along(chain, kAround);
+        for (std::size_t i = 0; i < strengths.size(); ++i) {
+            StrokeVertex& v = stroke.vertices[i];
             const double range = style.high - style.low;
-            v.strength = range > 0 ? std::clamp((sum / count - style.low) / range, 0.0, 1.0) : 1;
+            v.strength = range > 0 ? std::clamp((strengths[i] - style.low) / range, 0.0, 1.0) : 1;
             if (style.soft) v.opacity = v.width = v.strength;
         }
     }
