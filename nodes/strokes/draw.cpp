@@ -105,7 +105,8 @@ struct LayInk {
             for (std::size_t c = 0; c < row.size() && from < to; ++c)
                 inked[c] = row[c].subspan(index(from - rect.x0), index(to - from));
             if (overlap == Overlap::kUnion) unite(inked);
-            for (std::size_t c = 0; c < out.size(); ++c) std::ranges::transform(row[c], out[c].row(y), with_one_nan);
+            for (std::size_t c = 0; c < out.size(); ++c)
+                std::ranges::transform(row[c], out[c].row(y), with_one_nan);
             for (const std::span<float> channel : inked) std::ranges::fill(channel, 0.0F);
         }
     }
