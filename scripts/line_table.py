@@ -169,7 +169,7 @@ def form_rows(of):
         (DOUBLES, [percent(f["doubles"], 1) for f in of]),
         (LOOSE, [number(1000 * f["looseEnds"] / f["pixels"], 1) for f in of]),
         (RIPPLE, [number(f["ripple"], 3) for f in of]),
-        (EVEN, [percent(f["drawnWidthSpread"], 1) for f in of]),
+        (EVEN, [percent(f["drawnWidthSpread"], 1) if f["drawnWidthPixels"] else "–" for f in of]),
         (CURVES, [number(100 * f["curves"] / f["pixels"], 1) for f in of]),
     ]
 

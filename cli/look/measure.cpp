@@ -31,7 +31,7 @@ struct MeasureArguments {
 struct Measured {
     Form form;
     std::optional<Accuracy> accuracy;  // where there is a truth
-    std::optional<double> unevenness;  // where there is a picture
+    std::optional<DrawnWidth> drawn;   // where there is a picture
 };
 
 // A file and the name of one of its layers: FILE:LAYER.
@@ -100,8 +100,12 @@ std::string text_of(const Measured& measured) {
     line("width", fmt::format("changes by {:.3f} a pixel at most (95 %), spreads by {:.1f} %",
                               form.width_slope, 100 * form.width_spread));
     line("curves", fmt::format("{}, {:.1f} in 100 pixels", form.curves, form.curves_per_hundred()));
-    if (measured.unevenness)
-        line("drawn width", fmt::format("spreads by {:.1f} %", 100 * *measured.unevenness));
+    if (measured.drawn && measured.drawn->length > 0)
+        line("drawn width", fmt::format("spreads by {:.1f} %, told from {:.0f} pixels",
+                                        100 * measured.drawn->spread, measured.drawn->length));
+    else if (measured.drawn)
+        line("drawn width",
+             "no stroke runs straight and alone for long enough, where the picture has a line");
     return out;
 }
 
@@ -134,7 +138,10 @@ std::string json_of(const Measured& measured, const MeasureArguments& a) {
     json.field("looseEnds", f.loose_ends).field("objects", f.objects).field("closed", f.closed);
     json.field("ripple", f.ripple).field("widthSlope", f.width_slope);
     json.field("widthSpread", f.width_spread).field("curves", f.curves);
-    if (measured.unevenness) json.field("drawnWidthSpread", *measured.unevenness);
+    if (measured.drawn) {
+        json.field("drawnWidthPixels", measured.drawn->length);
+        if (measured.drawn->length > 0) json.field("drawnWidthSpread", measured.drawn->spread);
+    }
     return json.end_object().end_object().text() + "\n";
 }
 
@@ -149,7 +156,7 @@ int measure_one(const MeasureArguments& a) {
     Measured measured{form_of(drawing), {}, {}};
     if (!a.drawn.empty()) {
         const FileLayer drawn(a.drawn, "");
-        measured.unevenness = unevenness_of(drawing, read_drawn_lines(drawn.file.at(0), drawn.layer));
+        measured.drawn = width_in(drawing, read_drawn_lines(drawn.file.at(0), drawn.layer));
     }
     if (!a.truth.empty()) measured.accuracy = accuracy_of(drawing, read_strokes(a.truth), a.accuracy);
     if (measured.accuracy) {
@@ -166,7 +173,8 @@ int measure_one(const MeasureArguments& a) {
 // From frame to frame.
 struct Moving {
     Steadiness steadiness;
-    std::optional<double> flicker;  // where there are pictures
+    bool compared = false;  // there are pictures
+    std::optional<double> flicker;
 };
 
 std::string text_of(const Moving& moving, const MeasureArguments& a) {
@@ -184,6 +192,7 @@ std::string text_of(const Moving& moving, const MeasureArguments& a) {
     line("drift", fmt::format("{:.3f} pixels from frame to frame, {:.3f} from the first to the last, of "
                               "{:.0f} that stay in view",
                               s.drift, s.shot_drift, s.drifted));
+    if (moving.compared && !moving.flicker) line("flicker", "the pictures have no lines to compare");
     if (moving.flicker) line("flicker", fmt::format("{:.1f} % of the drawn pixels", 100 * *moving.flicker));
     return out;
 }
@@ -222,8 +231,8 @@ int measure_frames(const MeasureArguments& a) {
     if (frames.size() < 2)
         fail(ErrorKind::kGraph, "one frame has no other to be held against",
              "give two and more to '--frames'");
-    Moving moving{steadiness_of(frames, a.accuracy), {}};
-    if (!pictures.empty()) moving.flicker = flicker_of(pictures);
+    Moving moving{steadiness_of(frames, a.accuracy), !pictures.empty(), {}};
+    if (moving.compared) moving.flicker = flicker_of(pictures);
     print_result(a.json ? json_of(moving, a) : text_of(moving, a));
     return 0;
 }

@@ -32,10 +32,18 @@ public:
             widths_.push_back(is_clear(i) ? width_at(spots_[i]) : std::nullopt);
     }
 
-    std::vector<double> off_their_means() const {
-        std::vector<double> out;
+    DrawnWidth spread() const {
+        DrawnWidth out;
+        std::vector<double> off;
         for (std::size_t i = 0; i < spots_.size(); ++i)
-            if (const auto off = off_the_mean(static_cast<std::ptrdiff_t>(i))) out.push_back(*off);
+            if (const auto here = off_the_mean(static_cast<std::ptrdiff_t>(i))) {
+                off.push_back(*here);
+                out.length += spots_[i].length;
+            }
+        if (off.empty()) return out;
+        const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+        std::ranges::nth_element(off, middle);
+        out.spread = kOfMedian * *middle;
         return out;
     }
 
@@ -142,18 +150,15 @@ double DrawnLines::at(double x, double y) const {
            t * ((1 - s) * pixel(column, row + 1) + s * pixel(column + 1, row + 1));
 }
 
-double unevenness_of(const Strokes& strokes, const DrawnLines& drawn) {
-    std::vector<double> off = Widths(strokes, drawn).off_their_means();
-    if (off.empty()) return 0;
-    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-    std::ranges::nth_element(off, middle);
-    return kOfMedian * *middle;
+DrawnWidth width_in(const Strokes& strokes, const DrawnLines& drawn) {
+    return Widths(strokes, drawn).spread();
 }
 
-double flicker_of(const std::vector<DrawnFrame>& frames) {
+std::optional<double> flicker_of(const std::vector<DrawnFrame>& frames) {
     Flicker flicker;
     for (std::size_t i = 1; i < frames.size(); ++i) flicker.add(frames[i - 1], frames[i]);
-    return flicker.whole > 0 ? flicker.change / flicker.whole : 0;
+    if (!(flicker.whole > 0)) return {};
+    return flicker.change / flicker.whole;
 }
 
 }  // namespace keyline

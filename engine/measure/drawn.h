@@ -7,6 +7,7 @@
 #include "engine/measure/motion.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +27,15 @@ struct DrawnLines {
 // The A of an image or of its layer, or its only channel.  Throws Failure (kInput).
 DrawnLines read_drawn_lines(const std::filesystem::path& file, const std::string& layer);
 
-// How much the width that strokes have in a picture changes along them, as a share of it: 1.4826 times the
-// median of what it is off its mean within 10 pixels.  Width is the coverage across the stroke, summed up.
-// Ends, bends, and what has another line beside it do not count; 0 where nothing else is left.
-double unevenness_of(const Strokes& strokes, const DrawnLines& drawn);
+// How even strokes are in a picture.
+struct DrawnWidth {
+    double spread = 0;  // of the width, as a share of it
+    double length = 0;  // of strokes that it is told from, in pixels; where it is 0, nothing is known
+};
+
+// The spread is 1.4826 times the median of what widths are off their mean within 10 pixels.  A width is the
+// coverage across the stroke, summed up.  Ends, bends, and what has another line beside it do not count.
+DrawnWidth width_in(const Strokes& strokes, const DrawnLines& drawn);
 
 struct DrawnFrame {
     DrawnLines drawn;
@@ -40,6 +46,7 @@ struct DrawnFrame {
 // pixel moves as the nearest thing within 2 pixels does, as a line goes with what it is drawn on; what leaves
 // the view or comes out from behind something does not count.  Lines that move by parts of pixels flicker a
 // little however well they are drawn.
-double flicker_of(const std::vector<DrawnFrame>& frames);
+// Nothing where there is nothing to compare.
+std::optional<double> flicker_of(const std::vector<DrawnFrame>& frames);
 
 }  // namespace keyline

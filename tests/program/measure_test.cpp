@@ -109,7 +109,7 @@ TEST_F(MeasureFrames, HoldsPicturesOfThemAgainstEachOther) {
              "out": { "type": "write", "in": "ink", "file": "ink.#.exr", "depth": "float" })");
     ASSERT_EQ(keyline({"render", "graph.json", "--frames", "1-2"}).status, 0);
     const Outcome one = keyline({"measure", "line.1.json", "--drawn", "ink.1.exr"});
-    EXPECT_THAT(one.out, HasSubstr("drawn width      spreads by 0.0 %")) << one.err;
+    EXPECT_THAT(one.out, HasSubstr("drawn width      spreads by 0.0 %, told from 40 pixels")) << one.err;
     EXPECT_NEAR(Json::parse(keyline({"measure", "line.1.json", "--drawn", "ink.1.exr", "--json"})
                                 .out)["form"]["drawnWidthSpread"],
                 0, 1e-4);
